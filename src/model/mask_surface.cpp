@@ -2,9 +2,7 @@
 #include "model/mask_surface.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <unordered_map>
 #include <utility>
 
@@ -43,27 +41,6 @@ Nodes nodes_of(const PingMask& mask, int beams) {
     }
   }
   return nodes;
-}
-
-/// Where a fractional index lies on an axis of the sector; beyond its ends with the width of the outermost cell.
-double angle_at(double index, int count, auto&& centre, auto&& bounds) {
-  const double last = count - 1.0;
-  if (index < 0.0) return centre(0) + index * (bounds(0).upper - bounds(0).lower);
-  if (index >= last) return centre(count - 1) + (index - last) * (bounds(count - 1).upper - bounds(count - 1).lower);
-  const int below = static_cast<int>(index);
-  return centre(below) + (index - below) * (centre(below + 1) - centre(below));
-}
-
-Point<Sonar> place_at(const Sector& sector, const std::array<double, 3>& index) {
-  const double elevation = angle_at(
-      index[0], sector.fans(), [&](int i) { return sector.elevation_rad(i); },
-      [&](int i) { return sector.elevation_bounds(i); });
-  const double azimuth = angle_at(
-      index[1], sector.beams(), [&](int i) { return sector.azimuth_rad(i); },
-      [&](int i) { return sector.azimuth_bounds(i); });
-  constexpr double kUpright = 0.4999 * std::numbers::pi;
-  const double range = std::max(sector.range().range_m(index[2]), 0.0);
-  return Sector::direction(std::clamp(elevation, -kUpright, kUpright), azimuth) * range;
 }
 
 using Node = std::array<int, 3>;  ///< among the nodes
@@ -155,9 +132,8 @@ class Mesher {
 
   [[nodiscard]] Point<Sonar> crossing(const Node& a, const Node& b) const {
     const double part = (kLevel - value(a)) / (static_cast<double>(value(b)) - value(a));
-    std::array<double, 3> index{};
-    for (std::size_t k = 0; k < 3; ++k) index[k] = nodes_.first[k] + a[k] + part * (b[k] - a[k]);
-    return place_at(sector_, index);
+    const auto index = [&](std::size_t k) { return nodes_.first[k] + a[k] + part * (b[k] - a[k]); };
+    return sector_.place_at({index(0), index(1), index(2)});
   }
 
   const Nodes& nodes_;

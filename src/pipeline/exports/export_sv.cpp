@@ -71,16 +71,22 @@ class SvExport {
 
 }  // namespace
 
+Result<const ObservationFiles*> raw_files_of(const SurveyFiles& survey, const ObservationProduct& product) {
+  const ObservationFiles* observation = survey.find(product.observation);
+  if (observation != nullptr && has_pings(product, source_of(*observation), datagram_times(survey, *observation))) {
+    return observation;
+  }
+  return fail(ErrorCode::mismatch,
+              fmt::format("{}: the raw files have no observation of these pings", product.observation));
+}
+
 Result<std::vector<fs::path>> export_sv(const SurveyFiles& survey, const ObservationProduct& product,
                                         const Recipe& recipe, const fs::path& dest, Work& work) {
   std::vector<fs::path> files;
   if (!product.grid || product.pings.empty()) return files;
-  const ObservationFiles* observation = survey.find(product.observation);
-  if (observation == nullptr || !has_pings(product, source_of(*observation), datagram_times(survey, *observation))) {
-    return fail(ErrorCode::mismatch,
-                fmt::format("{}: the raw files have no observation of these pings", product.observation));
-  }
-  Engine engine(survey, *observation, recipe);
+  const auto observation = raw_files_of(survey, product);
+  if (!observation) return pass_on(observation);
+  Engine engine(survey, **observation, recipe);
   if (auto given = take_background(engine, product, work); !given) return pass_on(given);
   const GridRecord& grid = *product.grid;
   const std::size_t voxels = grid.grid.channel.size() * static_cast<std::size_t>(grid.range.count);
