@@ -12,6 +12,7 @@
 #include "io/mask_volume.h"
 #include "io/product_file.h"
 #include "io/survey_layers.h"
+#include "pipeline/exports/export_ices.h"
 #include "pipeline/exports/export_meshes.h"
 #include "pipeline/exports/export_sv.h"
 #include "pipeline/exports/export_vtk.h"
@@ -25,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using Files = std::vector<fs::path>;
 
-constexpr std::array<ExportFormat, 10> kFormats = {{
+constexpr std::array<ExportFormat, 11> kFormats = {{
     {"csv", "schools.csv and school_pings.csv"},
     {"netcdf-mask", "masks as whole arrays [ping][fan][beam][sample], one netCDF file an observation"},
     {"gpkg", "the survey map as one GeoPackage"},
@@ -34,6 +35,7 @@ constexpr std::array<ExportFormat, 10> kFormats = {{
     {"gltf", "the same surfaces, one .glb an observation"},
     {"vtu", "masks as cells for ParaView, one file a ping with schools and a .pvd that plays them"},
     {"vts", "Sv and masks on the curved grid for ParaView, likewise; needs --survey", true},
+    {"ices", "acoustic XML of ICES, which StoX reads, from the tables of integrate"},
     {"sv", "calibrated Sv, unfiltered and filtered, with masks, flags and background; needs --survey", true},
     {"raw-reduced", "raw files with the schools' samples only; needs --survey", true},
 }};
@@ -251,6 +253,11 @@ Result<Exported> export_products(const ExportOptions& options, Work& work) {
   if (format->name == "geojson") return export_map(*source, options.dest, MapFormat::geojson, work);
   if (format->name == "ply") return export_each(*source, options, export_ply, work);
   if (format->name == "gltf") return export_each(*source, options, export_glb, work);
+  if (format->name == "ices") {
+    auto files = export_ices(source->survey.observations.front(), options.out, options.dest);
+    if (!files) return pass_on(files);
+    return Exported{std::move(*files)};
+  }
   if (format->name == "vtu") return export_each(*source, options, export_vtu, work);
   if (format->name == "vts") return export_samples(*source, options, export_vts, work);
   if (format->name == "sv") return export_samples(*source, options, export_sv, work);
