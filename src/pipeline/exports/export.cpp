@@ -12,6 +12,7 @@
 #include "io/mask_volume.h"
 #include "io/product_file.h"
 #include "io/survey_layers.h"
+#include "pipeline/exports/export_echoview.h"
 #include "pipeline/exports/export_ices.h"
 #include "pipeline/exports/export_meshes.h"
 #include "pipeline/exports/export_sv.h"
@@ -26,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using Files = std::vector<fs::path>;
 
-constexpr std::array<ExportFormat, 11> kFormats = {{
+constexpr std::array<ExportFormat, 12> kFormats = {{
     {"csv", "schools.csv and school_pings.csv"},
     {"netcdf-mask", "masks as whole arrays [ping][fan][beam][sample], one netCDF file an observation"},
     {"gpkg", "the survey map as one GeoPackage"},
@@ -36,6 +37,7 @@ constexpr std::array<ExportFormat, 11> kFormats = {{
     {"vtu", "masks as cells for ParaView, one file a ping with schools and a .pvd that plays them"},
     {"vts", "Sv and masks on the curved grid for ParaView, likewise; needs --survey", true},
     {"ices", "acoustic XML of ICES, which StoX reads, from the tables of integrate"},
+    {"echoview", "regions of each fan (.evr, depth = slant range) and the seabed (.evl)"},
     {"sv", "calibrated Sv, unfiltered and filtered, with masks, flags and background; needs --survey", true},
     {"raw-reduced", "raw files with the schools' samples only; needs --survey", true},
 }};
@@ -136,10 +138,10 @@ Result<Exported> export_each(const Source& source, const ExportOptions& options,
     work.progress(options.format, static_cast<std::int64_t>(i) + 1, std::ssize(source.files));
   }
   if (!done.files.empty()) return done;
-  return fail(
-      ErrorCode::unsupported,
-      fmt::format("no school has a mask, a position and a heading: there is nothing for {} to hold", options.format),
-      {.file = options.out.string()});
+  return fail(ErrorCode::unsupported,
+              fmt::format("no school has a mask in a ping with position and heading: there is nothing for {} to hold",
+                          options.format),
+              {.file = options.out.string()});
 }
 
 /// The raw files of the products, under their recipe.
@@ -258,6 +260,7 @@ Result<Exported> export_products(const ExportOptions& options, Work& work) {
     if (!files) return pass_on(files);
     return Exported{std::move(*files)};
   }
+  if (format->name == "echoview") return export_each(*source, options, export_echoview, work);
   if (format->name == "vtu") return export_each(*source, options, export_vtu, work);
   if (format->name == "vts") return export_samples(*source, options, export_vts, work);
   if (format->name == "sv") return export_samples(*source, options, export_sv, work);
