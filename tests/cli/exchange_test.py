@@ -264,8 +264,6 @@ class Ices(Case):
                 for element in [root] if parent == "Acoustic" else root.iter(parent):
                     if element.get("IDREF"):
                         continue
-                    if element.tag == "Calibration" and not len(element) or element.tag == "Data" and not len(element):
-                        self.fail("empty")
                     places = [order.index(child.tag) for child in element]
                     self.assertEqual(places, sorted(places), parent)
                     self.assertLessEqual(needed, {child.tag for child in element}, parent)
@@ -396,7 +394,7 @@ class HtmlReport(Case):
                     self.assertIn(f"{float(row[column]):.5g}", page.cells, column)
         said = " ".join(page.texts)
         for words in ("SYNTHETIC", "recipe_version", "Not integrated", "What was noted", "standard error"):
-            self.assertIn(words, said)
+            self.assertTrue(words in said, words)
 
     def test_integration_is_shown_and_names_are_text(self):
         out = self.fresh("report-html-out")
