@@ -71,7 +71,7 @@ void add_export(CLI::App& app, VerbRunner& run) {
   verb->add_option("-o,--out,--dest", arguments->dest, "Folder that the files go to")
       ->required()
       ->check(named_folder());
-  verb->add_option("--survey", arguments->survey, "Folder of the raw files (sv, seabed, raw-reduced)")
+  verb->add_option("--survey", arguments->survey, "Folder of the raw files (vts, sv, seabed, raw-reduced)")
       ->check(named_path("FOLDER"));
   verb->add_option("--margin-samples", arguments->reduce.margin_samples,
                    "raw-reduced: samples before and after each school that are kept beyond what its figures need");

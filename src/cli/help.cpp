@@ -57,7 +57,8 @@ constexpr std::array kExamples = {
              "  sonarx propagate SURVEY --observation obs-0001 --seed 6,6,7,442 --tolerance-db 10 -o ONE\n"},
     Examples{"export",
              "  sonarx export OUT --to csv -o TABLES\n  sonarx export OUT --to geojson -o MAP\n"
-             "  sonarx export OUT --to raw-reduced --survey SURVEY -o SMALL\n"},
+             "  sonarx export OUT --to raw-reduced --survey SURVEY -o SMALL\n"
+             "  sonarx export OUT --to gltf -o SURFACES\n"},
     Examples{"score", "  sonarx score OUT --truth SYNTHETIC/truth\n"},
     Examples{"agree", "  sonarx agree OUT OTHER\n  sonarx agree OUT OTHER -o AGREEMENT\n"},
     Examples{"compare", "  sonarx compare OUT OTHER\n"},

@@ -14,15 +14,20 @@
 #include "cli/progress.h"
 #include "cli/render_options.h"
 #include "cli/verb.h"
+#include "io/atomic_file.h"
 #include "pipeline/recipe/recipe.h"
 #include "publish/movie.h"
 #include "publish/picture.h"
 #include "publish/picture_output.h"
+#include "publish/report_html.h"
 #include "render/compare_pictures.h"
 #include "render/draw_frame.h"
 
 namespace sonar {
 namespace {
+
+/// A report in HTML: pages, not a picture.
+bool is_page(const RenderArguments& arguments) { return arguments.kind == "report" && is_report_html(arguments.out); }
 
 /// What would be found out only after the drawing.
 Result<void> check_output(const RenderArguments& arguments) {
@@ -33,11 +38,18 @@ Result<void> check_output(const RenderArguments& arguments) {
     if (auto place = require_place(name); !place) return place;
   }
   const bool movie = arguments.kind == "movie";
+  if (is_page(arguments)) {
+    if (arguments.reference.empty()) return {};
+    return fail(ErrorCode::usage, "a report in HTML is no picture to be compared; expected .png, .svg or .pdf",
+                {arguments.out});
+  }
   if (movie && !is_movie_file(arguments.out)) {
     return fail(ErrorCode::usage, "expected a name that ends in .mp4 or .png (an animated PNG)", {arguments.out});
   }
   if (!movie && !arguments.out.empty() && arguments.out != kStandardOutput && !is_picture_file(arguments.out)) {
-    return fail(ErrorCode::usage, "expected a name that ends in .png, .svg or .pdf", {arguments.out});
+    const char* expected = arguments.kind == "report" ? "expected a name that ends in .png, .svg, .pdf or .html"
+                                                      : "expected a name that ends in .png, .svg or .pdf";
+    return fail(ErrorCode::usage, expected, {arguments.out});
   }
   if (!arguments.reference.empty() && !fs::is_regular_file(arguments.reference, absent)) {
     return fail(ErrorCode::not_found, "no reference picture; look at one and put it there first",
@@ -127,11 +139,31 @@ Result<void> print_picture(const FrameDescription& frame, double scale) {
   return {};
 }
 
+Result<void> write_page(const RenderArguments& arguments, Work& work) {
+  const auto options = picture_options(arguments);
+  if (!options) return pass_on(options);
+  const auto source = source_of(arguments, work);
+  if (!source) return pass_on(source);
+  const std::vector<std::filesystem::path> paths(arguments.paths.begin(), arguments.paths.end());
+  const auto page = report_html(**source, paths, *options, work);
+  if (!page) return pass_on(page);
+  return write_file(arguments.out, *page);
+}
+
+int render_page(const RenderArguments& arguments, Work& work) {
+  const auto written = write_page(arguments, work);
+  clear_progress();
+  if (!written) return report(written.error());
+  fmt::print("{}\n", arguments.out);
+  return kExitDone;
+}
+
 int render_verb(const RenderArguments& arguments) {
   Work work(arguments.jobs);
   const CancelOnInterrupt watch(work);
   show_progress(work);
   if (arguments.kind == "movie") return render_movie(arguments, work);
+  if (is_page(arguments)) return render_page(arguments, work);
   const auto frame = frame_of(arguments, work);
   clear_progress();
   if (!frame) return report(frame.error());

@@ -137,8 +137,9 @@ void add_render_options(CLI::App& verb, RenderArguments& a) {
   verb.add_option("KIND", a.kind, kinds)->required()->check(one_of(kind_names()));
   verb.add_option("PATH", a.paths, "Raw files or their folder, a work folder of a run or a product, or both")
       ->required();
-  verb.add_option("-o,--out", a.out,
-                  "Picture: .png, .svg or .pdf; - = PNG on standard output. Movie: .mp4, or .png (animated)")
+  verb.add_option(
+          "-o,--out", a.out,
+          "Picture: .png, .svg or .pdf; - = PNG on standard output. Movie: .mp4, or .png (animated). Report: .html too")
       ->check(named_file());
   add_comparing(verb, a);
   add_common(verb, a);

@@ -34,6 +34,14 @@ double fractional_index(const std::vector<double>& centres, const std::vector<An
   return static_cast<double>(i) + (value - centres[i]) / (centres[i + 1] - centres[i]);
 }
 
+/// The inverse of fractional_index().
+double angle_at(const std::vector<double>& centres, const std::vector<AngleBounds>& bounds, double index) {
+  if (centres.size() == 1) return centres[0] + index * (bounds[0].upper - bounds[0].lower);
+  const double last = static_cast<double>(centres.size() - 2);
+  const auto i = static_cast<std::size_t>(std::clamp(std::floor(index), 0.0, last));
+  return centres[i] + (index - static_cast<double>(i)) * (centres[i + 1] - centres[i]);
+}
+
 bool strictly_rising(const std::vector<double>& values) {
   return std::adjacent_find(values.begin(), values.end(), [](double a, double b) { return !(a < b); }) == values.end();
 }
@@ -75,6 +83,13 @@ SectorIndex Sector::index_of(const Point<Sonar>& p) const {
   azimuth -= turns * std::round((azimuth - middle) / turns);
   return {fractional_index(elevation_rad_, elevation_bounds_, elevation),
           fractional_index(azimuth_rad_, azimuth_bounds_, azimuth), range_.sample_at(range)};
+}
+
+Point<Sonar> Sector::place_at(const SectorIndex& index) const {
+  const double elevation = angle_at(elevation_rad_, elevation_bounds_, index.fan);
+  const double azimuth = angle_at(azimuth_rad_, azimuth_bounds_, index.beam);
+  constexpr double kUpright = 0.5 * std::numbers::pi;
+  return direction(std::clamp(elevation, -kUpright, kUpright), azimuth) * std::max(range_.range_m(index.sample), 0.0);
 }
 
 bool Sector::contains(const SectorIndex& index) const {

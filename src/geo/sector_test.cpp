@@ -80,6 +80,25 @@ TEST(Sector, IndexOfInvertsCentre) {
   }
 }
 
+TEST(Sector, PlaceAtInvertsIndexOf) {
+  const Sector uneven({-0.8, -0.7, -0.45, -0.4, 0.1}, {4.0, 4.1, 4.5}, {10.0, 0.5, 40});
+  const Sector lone({-0.3}, {4.7}, {10.0, 0.5, 40});
+  for (const Sector& sector : {uneven, lone}) {
+    for (const double fan : {-0.6, 0.25, 0.5, 1.9}) {
+      for (const double beam : {-0.5, 0.0, 1.3, 2.4}) {
+        const SectorIndex index = sector.index_of(sector.place_at({fan, beam, 7.25}));
+        EXPECT_NEAR(index.fan, fan, 1e-9);
+        EXPECT_NEAR(index.beam, beam, 1e-9);
+        EXPECT_NEAR(index.sample, 7.25, 1e-9);
+      }
+    }
+  }
+  EXPECT_NEAR(norm(uneven.place_at({2.0, 1.0, 3.0}) - uneven.centre(2, 1, 3)), 0.0, 1e-12);
+  const Point<Sonar> corner = uneven.place_at({-0.5, -0.5, 0.0});
+  EXPECT_NEAR(norm(corner - Sector::direction(uneven.elevation_bounds(0).lower, uneven.azimuth_bounds(0).lower) * 10.0),
+              0.0, 1e-12);
+}
+
 TEST(Sector, IndexOfWorksAcrossTheBowAndForOneBeam) {
   const Sector bow(evenly(-30.0, 5.0, 3), evenly(350.0, 5.0, 5), {1.0, 1.0, 100});
   EXPECT_NEAR(bow.index_of(bow.centre(1, 4, 50)).beam, 4.0, 1e-9);

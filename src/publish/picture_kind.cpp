@@ -22,7 +22,8 @@ std::span<const PictureKindInfo> picture_kinds() {
       {"frequency", "mean Sv of schools, and of the water round them, in each fan over the fan's frequency"},
       {"noise-steps", "a slice as recorded and after each step of noise removal, or two of the steps compared"},
       {"movie", "one of the kinds that show a ping, moving: over pings, round a ping, or along the track"},
-      {"report", "the survey on one page: map, timeline, strongest schools and what the numbers mean"},
+      {"report",
+       "the survey on one page: map, timeline, strongest schools and what the numbers mean; as .html the whole of it"},
   }};
   return kinds;
 }

@@ -183,6 +183,12 @@ std::string menu_text(std::string_view format) {
   if (format == "geojson") return "Map (GeoJSON)...";
   if (format == "seabed") return "Seabed (table and GeoTIFF)...";
   if (format == "raw-reduced") return "Reduced raw files...";
+  if (format == "ply") return "Surfaces (PLY)...";
+  if (format == "gltf") return "Surfaces (glTF)...";
+  if (format == "vtu") return "Masks for ParaView (VTU)...";
+  if (format == "vts") return "Sv for ParaView (VTS)...";
+  if (format == "echoview") return "Regions for Echoview (EVR)...";
+  if (format == "ices") return "Acoustic XML (ICES)...";
   return std::string(format) + "...";
 }
 

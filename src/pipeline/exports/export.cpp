@@ -13,8 +13,12 @@
 #include "io/product_file.h"
 #include "io/survey_layers.h"
 #include "pipeline/exports/avoidance.h"
+#include "pipeline/exports/export_echoview.h"
+#include "pipeline/exports/export_ices.h"
+#include "pipeline/exports/export_meshes.h"
 #include "pipeline/exports/export_seabed.h"
 #include "pipeline/exports/export_sv.h"
+#include "pipeline/exports/export_vtk.h"
 #include "pipeline/exports/track_edges.h"
 #include "pipeline/tasks/merge.h"
 #include "pipeline/tasks/plan.h"
@@ -26,11 +30,17 @@ namespace {
 namespace fs = std::filesystem;
 using Files = std::vector<fs::path>;
 
-constexpr std::array<ExportFormat, 8> kFormats = {{
+constexpr std::array<ExportFormat, 14> kFormats = {{
     {"csv", "schools.csv, school_pings.csv and tracks_edges.csv"},
     {"netcdf-mask", "masks as whole arrays [ping][fan][beam][sample], one netCDF file an observation"},
     {"gpkg", "the survey map as one GeoPackage"},
     {"geojson", "the survey map, one GeoJSON file a layer"},
+    {"ply", "surface of each school in its strongest ping, in metres: one mesh a file"},
+    {"gltf", "the same surfaces, one .glb an observation"},
+    {"vtu", "masks as cells for ParaView, one file a ping with schools and a .pvd that plays them"},
+    {"vts", "Sv and masks on the curved grid for ParaView, likewise; needs --survey", true},
+    {"ices", "acoustic XML of ICES, which StoX reads, from the tables of integrate"},
+    {"echoview", "regions of each fan (.evr, depth = slant range) and the seabed (.evl)"},
     {"sv", "calibrated Sv, unfiltered and filtered, with masks, flags and background; needs --survey", true},
     {"avoidance",
      "avoidance.csv: speed, direction, depth and density of schools against range, bearing and time to closest "
@@ -133,6 +143,28 @@ Result<Exported> export_map(const Source& source, const fs::path& dest, MapForma
   return Exported{{target}};
 }
 
+/// Files of one observation each.
+using ObservationWriter = Result<Files> (*)(const ObservationProduct& product, const fs::path& dest, const Work& work);
+
+/// errors  unsupported: none of the observations has anything for the format
+Result<Exported> export_each(const Source& source, const ExportOptions& options, ObservationWriter write, Work& work) {
+  Exported done;
+  for (std::size_t i = 0; i < source.files.size(); ++i) {
+    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+    const auto product = with_masks(source, i);
+    if (!product) return pass_on(product);
+    auto made = write(*product, options.dest, work);
+    if (!made) return pass_on(made);
+    done.files.insert(done.files.end(), made->begin(), made->end());
+    work.progress(options.format, static_cast<std::int64_t>(i) + 1, std::ssize(source.files));
+  }
+  if (!done.files.empty()) return done;
+  return fail(ErrorCode::unsupported,
+              fmt::format("no school has a mask in a ping with position and heading: there is nothing for {} to hold",
+                          options.format),
+              {.file = options.out.string()});
+}
+
 /// The raw files of the products, under their recipe.
 struct RawSource {
   Recipe recipe;
@@ -151,23 +183,29 @@ Result<RawSource> open_raw(const Source& source, const ExportOptions& options, W
   return RawSource{std::move(*recipe), std::move(*survey)};
 }
 
-Result<Exported> export_all_sv(const Source& source, const ExportOptions& options, Work& work) {
+/// Files of an observation that its samples are read for.
+using SampleWriter = Result<Files> (*)(const SurveyFiles& survey, const ObservationProduct& product,
+                                       const Recipe& recipe, const fs::path& dest, Work& work);
+
+Result<Exported> export_samples(const Source& source, const ExportOptions& options, SampleWriter write, Work& work) {
   const auto raw = open_raw(source, options, work);
   if (!raw) return pass_on(raw);
   Exported done;
   for (std::size_t i = 0; i < source.files.size(); ++i) {
     const auto product = with_masks(source, i);
     if (!product) return pass_on(product);
-    auto made = export_sv(raw->survey, *product, raw->recipe, options.dest, work);
+    auto made = write(raw->survey, *product, raw->recipe, options.dest, work);
     if (!made) return pass_on(made);
-    if (made->empty()) done.without_grid.push_back(product->observation);
+    if (!product->grid) done.without_grid.push_back(product->observation);
     done.files.insert(done.files.end(), made->begin(), made->end());
   }
-  if (done.files.empty()) {
-    return fail(ErrorCode::unsupported, "no observation has a grid of fans and beams: there is nothing for sv to hold",
-                {.file = options.survey.string()});
-  }
-  return done;
+  if (!done.files.empty()) return done;
+  const bool grids = done.without_grid.size() < source.files.size();
+  return fail(
+      ErrorCode::unsupported,
+      fmt::format("no observation has {}: there is nothing for {} to hold",
+                  grids ? "pings with schools, positions and headings" : "a grid of fans and beams", options.format),
+      {.file = options.survey.string()});
 }
 
 Result<Exported> export_all_seabed(const Source& source, const ExportOptions& options, Work& work) {
@@ -255,8 +293,18 @@ Result<Exported> export_products(const ExportOptions& options, Work& work) {
   if (format->name == "netcdf-mask") return export_masks(*source, options.dest, work);
   if (format->name == "gpkg") return export_map(*source, options.dest, MapFormat::geopackage, work);
   if (format->name == "geojson") return export_map(*source, options.dest, MapFormat::geojson, work);
+  if (format->name == "ply") return export_each(*source, options, export_ply, work);
+  if (format->name == "gltf") return export_each(*source, options, export_glb, work);
+  if (format->name == "ices") {
+    auto files = export_ices(source->survey.observations.front(), options.out, options.dest);
+    if (!files) return pass_on(files);
+    return Exported{std::move(*files)};
+  }
+  if (format->name == "echoview") return export_each(*source, options, export_echoview, work);
+  if (format->name == "vtu") return export_each(*source, options, export_vtu, work);
+  if (format->name == "vts") return export_samples(*source, options, export_vts, work);
   if (format->name == "seabed") return export_all_seabed(*source, options, work);
-  if (format->name == "sv") return export_all_sv(*source, options, work);
+  if (format->name == "sv") return export_samples(*source, options, export_sv, work);
   return export_reduced(*source, options, work);
 }
 

@@ -30,7 +30,7 @@ Result<SeabedExport> SeabedExport::create(const fs::path& dest, const SeabedRast
 Result<void> SeabedExport::add(const SurveyFiles& survey, const ObservationProduct& product, const Recipe& recipe,
                                Work& work) {
   if (!product.grid || product.pings.empty()) return {};
-  const auto observation = files_of(survey, product);
+  const auto observation = raw_files_of(survey, product);
   if (!observation) return pass_on(observation);
   if (title_.empty()) title_ = product.title;
   Engine engine(survey, **observation, recipe);

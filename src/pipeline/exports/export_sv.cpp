@@ -71,7 +71,7 @@ class SvExport {
 
 }  // namespace
 
-Result<const ObservationFiles*> files_of(const SurveyFiles& survey, const ObservationProduct& product) {
+Result<const ObservationFiles*> raw_files_of(const SurveyFiles& survey, const ObservationProduct& product) {
   const ObservationFiles* observation = survey.find(product.observation);
   if (observation != nullptr && has_pings(product, source_of(*observation), datagram_times(survey, *observation))) {
     return observation;
@@ -84,7 +84,7 @@ Result<std::vector<fs::path>> export_sv(const SurveyFiles& survey, const Observa
                                         const Recipe& recipe, const fs::path& dest, Work& work) {
   std::vector<fs::path> files;
   if (!product.grid || product.pings.empty()) return files;
-  const auto observation = files_of(survey, product);
+  const auto observation = raw_files_of(survey, product);
   if (!observation) return pass_on(observation);
   Engine engine(survey, **observation, recipe);
   if (auto given = take_background(engine, product, work); !given) return pass_on(given);

@@ -12,9 +12,10 @@
 
 namespace sonar {
 
-/// The survey's observation that a product was made of.
-/// errors  mismatch: it has not the product's pings
-[[nodiscard]] Result<const ObservationFiles*> files_of(const SurveyFiles& survey, const ObservationProduct& product);
+/// The raw files that a product was made from.
+/// errors  mismatch: the survey's observation has not the product's pings
+[[nodiscard]] Result<const ObservationFiles*> raw_files_of(const SurveyFiles& survey,
+                                                           const ObservationProduct& product);
 
 /// Writes the calibrated Sv of an observation with its masks: DEST/obs-0001-sv.nc, or where that would be larger than
 /// 256 MB unpacked obs-0001-sv-001.nc and so on, the pings in order.

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/echoview_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace sonar {
+namespace {
+
+constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";
+constexpr const char* kEnd = "\r\n";
+constexpr const char* kProgram = "10.0.0.0";  ///< a version of Echoview that reads these formats
+constexpr int kAnalysis = 1;                  ///< type of a region
+constexpr int kMadeElsewhere = 2;             ///< creation type
+constexpr int kUnverified = 1;                ///< status of a line's point
+
+/// CCYYMMDD HHmmSSssss, the last in 0.1 ms.
+std::string echoview_time(TimeNs time) {
+  const std::string name = raw_name_time(time);  // "20261121-T195726"
+  return fmt::format("{} {}{:04}", name.substr(0, 8), name.substr(10), time % kSecondNs / 100'000);
+}
+
+/// A text of the file: one line.
+std::string one_line(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return static_cast<unsigned char>(c) < 0x20U; }, ' ');
+  return text;
+}
+
+/// A school in a fan of one ping: from its first sample to its last.
+struct Stretch {
+  std::int64_t ping = 0;
+  double near_m = 0.0;
+  double far_m = 0.0;
+};
+
+std::vector<Stretch> stretches(const ObservationProduct& product, std::int64_t school, int fan) {
+  const int beams = product.grid->grid.beams();
+  const RangeAxis& range = product.grid->range;
+  std::vector<Stretch> out;
+  for (const SchoolMask& mask : product.masks) {
+    if (mask.school_id != school || mask.ping_index < 0 || mask.ping_index >= std::ssize(product.pings)) continue;
+    int first = range.count;
+    int end = 0;
+    for (const Run& run : mask.mask.runs) {
+      if (run.row / beams != fan) continue;
+      first = std::min(first, run.first_sample);
+      end = std::max(end, run.end());
+    }
+    if (first < end) out.push_back({mask.ping_index, range.range_m(first - 0.5), range.range_m(end - 0.5)});
+  }
+  return out;
+}
+
+/// Half way to a neighbouring ping; where there is none, as far as on the other side.
+TimeNs half_way(const ObservationProduct& product, std::int64_t ping, int step) {
+  const auto at = [&](std::int64_t i) { return product.pings[static_cast<std::size_t>(i)].time; };
+  const auto is_there = [&](std::int64_t i) { return i >= 0 && i < std::ssize(product.pings); };
+  if (is_there(ping + step)) return at(ping) + (at(ping + step) - at(ping)) / 2;
+  if (is_there(ping - step)) return at(ping) + (at(ping) - at(ping - step)) / 2;
+  return at(ping) + step * kSecondNs / 2;
+}
+
+struct Corner {
+  TimeNs time = 0;
+  double range_m = 0.0;
+};
+
+/// Along the near side in time, back along the far one.
+std::vector<Corner> polygon(const ObservationProduct& product, std::span<const Stretch> pings) {
+  const TimeNs begin = half_way(product, pings.front().ping, -1);
+  const TimeNs end = half_way(product, pings.back().ping, 1);
+  std::vector<Corner> near = {{begin, pings.front().near_m}};
+  std::vector<Corner> far = {{begin, pings.front().far_m}};
+  for (const Stretch& one : pings) {
+    const TimeNs time = product.pings[static_cast<std::size_t>(one.ping)].time;
+    near.push_back({time, one.near_m});
+    far.push_back({time, one.far_m});
+  }
+  near.push_back({end, pings.back().near_m});
+  far.push_back({end, pings.back().far_m});
+  near.insert(near.end(), far.rbegin(), far.rend());
+  return near;
+}
+
+std::string region(const ObservationProduct& product, const SchoolRow& school, std::span<const Stretch> pings,
+                   std::size_t number) {
+  const std::vector<Corner> corners = polygon(product, pings);
+  const auto [top, bottom] = std::ranges::minmax(corners, {}, &Corner::range_m);
+  std::string out = fmt::format("{}13 {} {} 0 {} -1 1 {} {:.4f} {} {:.4f}{}", kEnd, corners.size(), number,
+                                kMadeElsewhere, echoview_time(corners.front().time), top.range_m,
+                                echoview_time(half_way(product, pings.back().ping, 1)), bottom.range_m, kEnd);
+  out += fmt::format("0{}0{}{}{}", kEnd, kEnd, school.species.empty() ? "school" : one_line(school.species), kEnd);
+  for (const Corner& corner : corners) out += fmt::format("{} {:.4f} ", echoview_time(corner.time), corner.range_m);
+  return out + fmt::format("{}{}{}/{}{}", kAnalysis, kEnd, product.observation, school.school_id, kEnd);
+}
+
+}  // namespace
+
+std::string evr_text(const ObservationProduct& product, int fan) {
+  std::string regions;
+  std::size_t number = 0;
+  for (const SchoolRow& school : product.schools) {
+    if (school.status == "rejected") continue;
+    const std::vector<Stretch> pings = stretches(product, school.school_id, fan);
+    for (std::size_t first = 0; first < pings.size();) {
+      std::size_t end = first + 1;
+      while (end < pings.size() && pings[end].ping == pings[end - 1].ping + 1) ++end;
+      regions += region(product, school, std::span(pings).subspan(first, end - first), ++number);
+      first = end;
+    }
+  }
+  if (number == 0) return {};
+  return fmt::format("{}EVRG 7 {}{}{}{}", kByteOrderMark, kProgram, kEnd, number, kEnd) + regions;
+}
+
+std::string evl_text(const ObservationProduct& product) {
+  std::map<std::int64_t, std::vector<double>> depths;
+  for (const SchoolPingRow& row : product.school_pings) {
+    const bool inside = row.ping_index >= 0 && row.ping_index < std::ssize(product.pings);
+    if (inside && std::isfinite(row.bottom_depth_m)) depths[row.ping_index].push_back(row.bottom_depth_m);
+  }
+  if (depths.empty()) return {};
+  std::string out = fmt::format("{}EVBD 3 {}{}{}{}", kByteOrderMark, kProgram, kEnd, depths.size(), kEnd);
+  for (auto& [ping, values] : depths) {
+    const auto middle = values.begin() + std::ssize(values) / 2;
+    std::ranges::nth_element(values, middle);
+    out += fmt::format("{} {:.4f} {}{}", echoview_time(product.pings[static_cast<std::size_t>(ping)].time), *middle,
+                       kUnverified, kEnd);
+  }
+  return out;
+}
+
+}  // namespace sonar

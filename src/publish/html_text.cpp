@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "publish/html_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/number_text.h"
+#include "io/column_words.h"
+#include "render/draw_frame.h"
+
+namespace sonar {
+namespace {
+
+constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  ///< U+FFFD
+constexpr double kPixelsOfPrint = 2.0;                     ///< about 200 dots an inch over an A4 page
+
+unsigned byte_at(std::string_view text, std::size_t i) { return static_cast<unsigned char>(text[i]); }
+
+/// Bytes of the sound UTF-8 character that begins there; 0 = none does. Overlong forms, surrogates and what lies beyond
+/// U+10FFFF are none.
+std::size_t character_bytes(std::string_view text, std::size_t at) {
+  const unsigned lead = byte_at(text, at);
+  if (lead < 0x80U) return 1;
+  const std::size_t length = lead >= 0xF0U ? 4 : lead >= 0xE0U ? 3 : 2;
+  if (lead < 0xC2U || lead > 0xF4U || text.size() - at < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte_at(text, at + i) & 0xC0U) != 0x80U) return 0;
+  }
+  const unsigned second = byte_at(text, at + 1);
+  const bool sound = !(lead == 0xE0U && second < 0xA0U) && !(lead == 0xEDU && second > 0x9FU) &&
+                     !(lead == 0xF0U && second < 0x90U) && !(lead == 0xF4U && second > 0x8FU);
+  return sound ? length : 0;
+}
+
+/// Of one ASCII character.
+std::string_view escaped(const char& c) {
+  switch (c) {
+    case '&':
+      return "&amp;";
+    case '<':
+      return "&lt;";
+    case '>':
+      return "&gt;";
+    case '"':
+      return "&quot;";
+    case '\'':
+      return "&#39;";
+    default:
+      return (static_cast<unsigned char>(c) < 0x20U && c != '\t' && c != '\n') || c == 0x7F ? kReplacement
+                                                                                            : std::string_view(&c, 1);
+  }
+}
+
+/// Empty where the field is no plain number.
+std::optional<double> number_in(std::string_view field) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  return error == std::errc() && end == field.data() + field.size() ? std::optional(value) : std::nullopt;
+}
+
+/// Five digits are more than any figure has; whole numbers stay whole, and places to a metre.
+std::string number_text(std::string_view field, double value) {
+  if (field.find_first_of(".eE") == std::string_view::npos) return std::string(field);
+  const bool place = std::abs(value) < 1000.0 && field.size() - std::min(field.size(), field.find('.')) == 9;
+  return place ? fmt::format("{:.5f}", value) : fmt::format("{:.5g}", value);
+}
+
+std::string cell(std::string_view field) {
+  const auto number = number_in(field);
+  if (!number) return "<td>" + html_escaped(field) + "</td>";
+  return "<td class=\"n\">" + html_escaped(number_text(field, *number)) + "</td>";
+}
+
+std::vector<std::size_t> columns_with_values(const CsvTable& table) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < table.header.size(); ++i) {
+    if (std::ranges::any_of(table.records, [&](const CsvRecord& r) { return !r.fields[i].empty(); })) out.push_back(i);
+  }
+  return out;
+}
+
+std::string head_cell(const std::string& name) {
+  const ColumnWords* words = words_of(name);
+  const std::string title = words == nullptr ? "" : " title=\"" + html_escaped(words->long_name) + "\"";
+  std::string shown = html_escaped(name);
+  // A long name may break where its words end.
+  for (std::size_t at = shown.find('_'); at != std::string::npos; at = shown.find('_', at + 6)) {
+    shown.insert(at + 1, "<wbr>");
+  }
+  return "<th scope=\"col\"" + title + ">" + shown + "</th>";
+}
+
+}  // namespace
+
+std::string html_escaped(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = character_bytes(text, at);
+    if (length == 1) {
+      out += escaped(text[at]);
+    } else {
+      out += length == 0 ? kReplacement : text.substr(at, length);
+    }
+    at += std::max<std::size_t>(1, length);
+  }
+  return out;
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = byte_at(bytes, i) << 16U;
+    if (left > 1) group |= byte_at(bytes, i + 1) << 8U;
+    if (left > 2) group |= byte_at(bytes, i + 2);
+    for (std::size_t k = 0; k < 4; ++k) out += k > left ? '=' : kLetters[(group >> (18U - 6U * k)) & 63U];
+  }
+  return out;
+}
+
+std::string html_heading(std::string_view text) { return "<h2>" + html_escaped(text) + "</h2>\n"; }
+
+std::string html_paragraph(std::string_view text) { return "<p>" + html_escaped(text) + "</p>\n"; }
+
+Result<std::string> html_picture(const FrameDescription& frame, std::string_view caption) {
+  const auto image = draw_frame(frame, kPixelsOfPrint);
+  if (!image) return pass_on(image);
+  const auto png = png_bytes(*image);
+  if (!png) return pass_on(png);
+  const std::string said = html_escaped(caption);
+  return fmt::format(
+      "<figure><img alt=\"{}\" width=\"{}\" height=\"{}\" src=\"data:image/png;base64,{}\">"
+      "<figcaption>{}</figcaption></figure>\n",
+      said, frame.size.width, frame.size.height, base64(*png), said);
+}
+
+std::string html_table(const CsvTable& table, std::string_view caption, std::size_t most) {
+  const std::vector<std::size_t> shown = columns_with_values(table);
+  const std::size_t rows = std::min(most, table.records.size());
+  std::string out = "<div class=\"wide\"><table><caption>" + html_escaped(caption) + "</caption>\n<thead><tr>";
+  for (const std::size_t i : shown) out += head_cell(table.header[i]);
+  out += "</tr></thead>\n<tbody>\n";
+  for (std::size_t r = 0; r < rows; ++r) {
+    out += "<tr>";
+    for (const std::size_t i : shown) out += cell(table.records[r].fields[i]);
+    out += "</tr>\n";
+  }
+  out += "</tbody></table></div>\n";
+  if (rows < table.records.size()) {
+    out += html_paragraph(fmt::format("The first {} of {} rows.", grouped(rows), grouped(table.records.size())));
+  }
+  return out;
+}
+
+}  // namespace sonar

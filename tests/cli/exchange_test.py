@@ -1,0 +1,420 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What other programs are given, read back by readers that share nothing with ours."""
+import base64
+import html.parser
+import json
+import math
+import re
+import shutil
+import struct
+import subprocess
+import unittest
+import xml.etree.ElementTree
+import zlib
+
+import sonarx
+from sonarx import OUT, SURVEY, Case
+
+try:
+    import numpy
+except ImportError:
+    numpy = None
+
+
+def ply(file):
+    """Comments, corners [n][3] and triangles [m][3]."""
+    raw = file.read_bytes()
+    head, body = raw.split(b"end_header\n", 1)
+    head = head.decode("ascii")
+    assert head.startswith("ply\nformat binary_little_endian 1.0\n"), head
+    vertices, faces = (int(re.search(rf"element {what} (\d+)", head)[1]) for what in ("vertex", "face"))
+    corners = numpy.frombuffer(body, "<f4", 3 * vertices).reshape(-1, 3).astype(float)
+    rows = numpy.frombuffer(body[12 * vertices:], numpy.dtype([("n", "u1"), ("at", "<u4", 3)]))
+    assert len(rows) == faces and (rows["n"] == 3).all()
+    return head, corners, rows["at"].astype(int)
+
+
+def glb(file):
+    """The document and the meshes by node's name."""
+    raw = file.read_bytes()
+    magic, version, length, size, kind = struct.unpack_from("<4sIII4s", raw)
+    assert (magic, version, length, kind) == (b"glTF", 2, len(raw), b"JSON")
+    said = json.loads(raw[20:20 + size])
+    bytes_, kind = struct.unpack_from("<I4s", raw, 20 + size)
+    data = raw[28 + size:]
+    assert kind == b"BIN\0" and bytes_ == len(data) and said["buffers"][0]["byteLength"] <= bytes_
+
+    def values(accessor):
+        accessor = said["accessors"][accessor]
+        view = said["bufferViews"][accessor["bufferView"]]
+        kind, width = {"VEC3": ("<f4", 3), "SCALAR": ("<u4", 1)}[accessor["type"]]
+        assert accessor["componentType"] == {"<f4": 5126, "<u4": 5125}[kind]
+        out = numpy.frombuffer(data[view["byteOffset"]:][:view["byteLength"]], kind)
+        assert len(out) == accessor["count"] * width
+        return out, accessor
+    meshes = {}
+    for node in said["nodes"]:
+        part = said["meshes"][node["mesh"]]["primitives"][0]
+        places, accessor = values(part["attributes"]["POSITION"])
+        places = places.reshape(-1, 3).astype(float)
+        assert numpy.allclose(places.min(0), accessor["min"]) and numpy.allclose(places.max(0), accessor["max"])
+        meshes[node["name"]] = places, values(part["indices"])[0].reshape(-1, 3).astype(int)
+    return said, meshes
+
+
+def volume_and_middle(corners, triangles):
+    a, b, c = (corners[triangles[:, k]] - corners[0] for k in range(3))
+    six = numpy.einsum("ij,ij->i", a, numpy.cross(b, c))
+    return six.sum() / 6, (six[:, None] * (a + b + c)).sum(0) / 4 / six.sum() + corners[0]
+
+
+@unittest.skipIf(numpy is None, "python3-numpy is not installed")
+class Meshes(Case):
+    def setUp(self):
+        self.schools = [r for r in sonarx.read_csv(OUT / "schools.csv") if r["status"] != "rejected"]
+        self.rows = {(r["observation"], r["school_id"], r["ping_index"]): r
+                     for r in sonarx.read_csv(OUT / "school_pings.csv")}
+
+    def test_ply_is_closed_outward_and_where_the_tables_say(self):
+        dest = self.fresh("export-ply")
+        self.sonarx("export", OUT, "--to", "ply", "-o", dest)
+        files = sorted(dest.glob("*.ply"))
+        self.assertEqual(len(files), len(self.schools), "a mesh a school")
+        for file in files:
+            name = re.fullmatch(r"(obs-\d+)-school-(\d+)-ping-(\d+)", file.stem).groups()
+            row = self.rows[name]
+            whole = [r for r in self.rows.values() if r["observation"] == name[0] and r["school_id"] == name[1]]
+            whole = [r for r in whole if r["touches_edge"] == "0"] or whole
+            self.assertEqual(row, max(whole, key=lambda r: float(r["backscatter_m2"])), "the strongest, of whole ones")
+            head, corners, triangles = ply(file)
+            edges = numpy.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+            keys = edges[:, 0] * len(corners) + edges[:, 1]
+            self.assertEqual(len(numpy.unique(keys)), len(keys), "an edge once in each direction")
+            self.assertTrue(numpy.isin(edges[:, 1] * len(corners) + edges[:, 0], keys).all(), "nothing gapes")
+            volume, middle = volume_and_middle(corners, triangles)
+            self.assertGreater(volume, 0.2 * float(row["volume_m3"]))
+            self.assertLess(volume, 1.02 * float(row["volume_m3"]), "voxels that are less sure lie outside")
+            origin = re.search(r"origin latitude (\S+) longitude (\S+)", head).groups()
+            north = (float(row["latitude"]) - float(origin[0])) * 111400  # of a degree at 60 N
+            east = (float(row["longitude"]) - float(origin[1])) * 111320 * math.cos(math.radians(float(origin[0])))
+            for told, expected in zip(middle, (east, north, -float(row["depth_m"]))):
+                self.assertAlmostEqual(told, expected, delta=0.15 * volume ** (1 / 3) + 0.004 * abs(expected))
+
+    def test_gltf_has_the_same_meshes_with_y_up(self):
+        dest = self.fresh("export-ply-too")
+        self.sonarx("export", OUT, "--to", "ply", "-o", dest)
+        meshes = {}
+        folder = self.fresh("export-gltf")
+        self.sonarx("export", OUT, "--to", "gltf", "-o", folder)
+        for file in folder.glob("*.glb"):
+            said, of_file = glb(file)
+            self.assertEqual(said["asset"]["version"], "2.0")
+            self.assertIn("y up", said["scenes"][0]["extras"]["axes"])
+            meshes |= of_file
+        self.assertEqual(sorted(meshes), sorted(file.stem for file in dest.glob("*.ply")))
+        for name, (places, triangles) in meshes.items():
+            _, corners, same = ply(dest / f"{name}.ply")
+            self.assertTrue((triangles == same).all())
+            self.assertTrue(numpy.allclose(places, numpy.stack([corners[:, 0], corners[:, 2], -corners[:, 1]], 1)))
+
+
+KINDS = {"Float32": "<f4", "Float64": "<f8", "Int64": "<i8", "UInt8": "u1"}
+
+
+def vtk(file):
+    """What VTK's XML says, and its arrays by name."""
+    head, data = file.read_bytes().split(b'<AppendedData encoding="raw">\n_', 1)
+    said = xml.etree.ElementTree.fromstring(head + b"</VTKFile>")
+    assert said.get("byte_order") == "LittleEndian" and said.get("header_type") == "UInt64"
+    arrays = {}
+    for array in said.iter("DataArray"):
+        if array.get("format") != "appended":
+            continue
+        at = int(array.get("offset"))
+        length = struct.unpack_from("<Q", data, at)[0]
+        values = numpy.frombuffer(data[at + 8:at + 8 + length], KINDS[array.get("type")])
+        width = int(array.get("NumberOfComponents"))
+        arrays[array.get("Name")] = values.reshape(-1, width) if width > 1 else values
+    return said, arrays
+
+
+def through_vtk(file, kind):
+    """The file as VTK itself reads it; None where it is not installed."""
+    try:
+        from vtkmodules import vtkIOXML
+    except ImportError:
+        return None
+    reader = getattr(vtkIOXML, kind)()
+    reader.SetFileName(str(file))
+    reader.Update()
+    return reader.GetOutput()
+
+
+@unittest.skipIf(numpy is None, "python3-numpy is not installed")
+class ParaView(Case):
+    def test_cells_of_masks_have_the_tables_volumes(self):
+        dest = self.fresh("export-vtu")
+        self.sonarx("export", OUT, "--to", "vtu", "-o", dest)
+        told = {}
+        for row in sonarx.read_csv(OUT / "school_pings.csv"):
+            told.setdefault((row["observation"], int(row["ping_index"])), {})[int(row["school_id"])] = row
+        files = sorted(dest.glob("*.vtu"))
+        self.assertEqual(len(files), len(told))
+        for file in files[::5]:
+            name = re.fullmatch(r"(obs-\d+)-ping-(\d+)", file.stem).groups()
+            schools = told[name[0], int(name[1])]
+            _, arrays = vtk(file)
+            self.assertTrue((arrays["types"] == 12).all())
+            self.assertTrue((arrays["offsets"] == 8 * numpy.arange(1, len(arrays["types"]) + 1)).all())
+            places = arrays["Points"].astype(float)
+            cells = places[arrays["connectivity"].reshape(-1, 8)]
+            # A box from three edges at its first corner and three at its last: the cells are nearly boxes.
+            first = numpy.linalg.det(cells[:, [1, 3, 4]] - cells[:, [0]])
+            last = numpy.linalg.det(cells[:, [7, 5, 2]] - cells[:, [6]])
+            volume = (first + numpy.abs(last)) / 2
+            self.assertTrue((first > 0).all(), "right-handed")
+            for school, row in schools.items():
+                ours = arrays["school_id"] == school
+                self.assertEqual(ours.sum(), int(row["n_voxels"]))
+                self.assertAlmostEqual(volume[ours].sum() / float(row["volume_m3"]), 1, delta=0.03)
+            self.assertTrue((arrays["confidence"] > 0).all() and (arrays["confidence"] <= 1).all())
+        grid = through_vtk(files[0], "vtkXMLUnstructuredGridReader")
+        if grid is not None:
+            self.assertEqual(grid.GetNumberOfCells(), len(vtk(files[0])[1]["types"]))
+
+    def test_the_series_is_in_the_order_of_time(self):
+        dest = self.fresh("export-vtu-series")
+        self.sonarx("export", OUT, "--to", "vtu", "-o", dest)
+        for file in dest.glob("*.pvd"):
+            steps = list(xml.etree.ElementTree.parse(file).getroot().iter("DataSet"))
+            times = [float(step.get("timestep")) for step in steps]
+            self.assertEqual(times, sorted(set(times)))
+            for step, time in zip(steps, times):
+                said, _ = vtk(dest / step.get("file"))
+                self.assertEqual(float(next(a for a in said.iter("DataArray") if a.get("Name") == "TimeValue").text), time)
+
+    def test_sv_on_the_grid_gives_the_tables_maxima(self):
+        dest = self.fresh("export-vts")
+        self.addCleanup(shutil.rmtree, dest)
+        self.sonarx("export", OUT, "--to", "vts", "--survey", SURVEY, "-o", dest)
+        row = next(r for r in sonarx.read_csv(OUT / "school_pings.csv") if float(r["valid_fraction"]) == 1)
+        file = dest / f"{row['observation']}-ping-{int(row['ping_index']):05}.vts"
+        said, arrays = vtk(file)
+        extent = [int(n) for n in said.find("StructuredGrid").get("WholeExtent").split()]
+        self.assertEqual(len(arrays["Points"]), numpy.prod([extent[2 * k + 1] + 1 for k in range(3)]))
+        ours = arrays["school_id"] == int(row["school_id"])
+        self.assertEqual(ours.sum(), int(row["n_voxels"]))
+        # The table takes the background off, a fraction of a decibel in the strongest voxel.
+        self.assertAlmostEqual(float(numpy.nanmax(arrays["Sv"][ours])), float(row["sv_max_db"]), delta=0.5)
+        depth = -(arrays["Points"][ours, 2] * arrays["confidence"][ours]).sum() / arrays["confidence"][ours].sum()
+        self.assertAlmostEqual(depth / float(row["depth_m"]), 1, delta=0.1)
+        grid = through_vtk(file, "vtkXMLStructuredGridReader")
+        if grid is not None:
+            self.assertEqual(grid.GetNumberOfPoints(), len(arrays["Points"]))
+
+
+class Ices(Case):
+    """Against the order of elements in icesAcoustic.xsd of RstoxData."""
+    ORDER = {
+        "Acoustic": "Instrument Calibration DataAcquisition DataProcessing EchoType Vocabulary Cruise",
+        "Instrument": "Frequency TransducerLocation TransducerManufacturer TransducerModel TransducerSerial TransducerBeamType "
+                      "TransducerDepth TransducerOrientation",
+        "Calibration": "Date AcquisitionMethod ProcessingMethod AccuracyEstimate Report Comments",
+        "DataAcquisition": "SoftwareName SoftwareVersion StoredDataFormat PingDutyCycle Comments",
+        "DataProcessing": "SoftwareName SoftwareVersion TriwaveCorrection ChannelID Bandwidth Frequency TransceiverPower "
+                          "TransmitPulseLength OnAxisGain OnAxisGainUnit SaCorrection Absorption AbsorptionDescription SoundSpeed "
+                          "SoundSpeedDescription TransducerPSI Comments",
+        "Cruise": "Survey Country Platform StartDate EndDate Organisation LocalID Log",
+        "Log": "Distance Time Latitude Longitude Origin Latitude2 Longitude2 Origin2 Validity BottomDepth Sample",
+        "Sample": "ChannelDepthUpper ChannelDepthLower PingAxisInterval PingAxisIntervalType PingAxisIntervalUnit SvThreshold "
+                  "Instrument Calibration DataAcquisition DataProcessing PingAxisIntervalOrigin Data",
+        "Data": "SaCategory EchoType Type Unit Value"}
+    OPTIONAL = {"EchoType", "TransducerManufacturer", "TransducerModel", "TransducerSerial", "TransducerDepth", "Report",
+                "Comments", "ChannelID", "Bandwidth", "SaCorrection", "Absorption", "AbsorptionDescription", "SoundSpeed",
+                "SoundSpeedDescription", "Organisation", "Log", "Latitude2", "Longitude2", "Origin2", "BottomDepth", "Sample",
+                "PingAxisIntervalOrigin", "SaCategory"}
+    OPTIONAL_IN_ACQUISITION = {"SoftwareName", "SoftwareVersion"}
+
+    def setUp(self):
+        self.out = self.fresh("export-ices-out")
+        shutil.copytree(OUT, self.out, dirs_exist_ok=True)
+        self.sonarx("integrate", SURVEY, "-o", self.out, "--edsu-nmi", "0.02")
+        self.dest = self.fresh("export-ices")
+        self.sonarx("export", self.out, "--to", "ices", "-o", self.dest)
+
+    def test_a_logs_channels_add_up_to_the_effort_table(self):
+        effort = [r for r in sonarx.read_csv(self.out / "effort.csv") if r["edsu"] != "0"]
+        for name, column in (("acoustic.xml", "nasc_m2_nmi2"), ("acoustic-schools.xml", "nasc_school_m2_nmi2")):
+            logs = xml.etree.ElementTree.parse(self.dest / name).getroot().findall("Cruise/Log")
+            self.assertEqual(len(logs), len(effort))
+            for log, row in zip(logs, effort):
+                values = [float(sample.find("Data/Value").text) for sample in log.findall("Sample")]
+                self.assertTrue(math.isclose(sum(values), float(row[column]), rel_tol=1e-4, abs_tol=1e-9), (values, row))
+                self.assertAlmostEqual(float(log.find("Latitude").text), float(row["latitude"]), places=7)
+                self.assertTrue(row["first_time_utc"][:19] <= log.find("Time").text <= row["last_time_utc"][:19])
+                tops = [float(sample.find("ChannelDepthUpper").text) for sample in log.findall("Sample")]
+                self.assertEqual(tops, sorted(set(tops)), "each channel once")
+
+    def test_elements_stand_as_the_schema_has_them(self):
+        for file in self.dest.glob("*.xml"):
+            root = xml.etree.ElementTree.parse(file).getroot()
+            for parent, order in self.ORDER.items():
+                order = order.split()
+                needed = set(order) - self.OPTIONAL - (self.OPTIONAL_IN_ACQUISITION if parent == "DataAcquisition" else set())
+                for element in [root] if parent == "Acoustic" else root.iter(parent):
+                    if element.get("IDREF"):
+                        continue
+                    places = [order.index(child.tag) for child in element]
+                    self.assertEqual(places, sorted(places), parent)
+                    self.assertLessEqual(needed, {child.tag for child in element}, parent)
+            ids = [e.get("ID") for e in root.iter() if e.get("ID")]
+            self.assertEqual(len(ids), len(set(ids)))
+            self.assertLessEqual({e.get("IDREF") for e in root.iter() if e.get("IDREF")}, set(ids))
+
+    @unittest.skipIf(shutil.which("xmllint") is None, "xmllint is not installed")
+    def test_xmllint_reads_it(self):
+        for file in self.dest.glob("*.xml"):
+            done = subprocess.run(["xmllint", "--noout", file], capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_what_was_not_integrated_is_refused(self):
+        self.one_line_error("export", OUT, "--to", "ices", "-o", self.fresh("export-ices-none"), code=1, names="sonarx integrate")
+
+
+def evr_regions(file):
+    """(numbers of the first line, class, corners [(text of time, depth)], type, name) of each, read by the format's rules."""
+    text = file.read_bytes().decode("utf-8-sig")
+    assert "\n" not in text.replace("\r\n", "")
+    lines = text.split("\r\n")
+    assert re.fullmatch(r"EVRG 7 \S+", lines[0]), lines[0]
+    at = 2
+    for _ in range(int(lines[1])):
+        assert lines[at] == ""
+        head = lines[at + 1].split()
+        at += 2
+        for _ in range(2):  # notes, then detection settings
+            at += 1 + int(lines[at])
+        *points, kind = lines[at + 1].split()
+        corners = [(points[k] + points[k + 1], float(points[k + 2])) for k in range(0, len(points), 3)]
+        assert head[0] == "13" and int(head[1]) == len(corners)
+        yield head, lines[at], corners, kind, lines[at + 2]
+        at += 3
+
+
+class Echoview(Case):
+    def test_regions_hold_the_schools_of_their_fans(self):
+        dest = self.fresh("export-echoview")
+        self.sonarx("export", OUT, "--to", "echoview", "-o", dest)
+        rows = {}
+        for row in sonarx.read_csv(OUT / "school_pings.csv"):
+            rows.setdefault(f"{row['observation']}/{row['school_id']}", []).append(row)
+        seen = set()
+        for file in dest.glob("*.evr"):
+            for head, kind, corners, type_, name in evr_regions(file):
+                seen.add(name)
+                self.assertEqual((kind, type_, head[5], head[6]), ("school", "1", "-1", "1"))
+                times = [time for time, _ in corners]
+                half = len(corners) // 2
+                self.assertEqual(times[:half], sorted(set(times[:half])), "there")
+                self.assertEqual(times[half:], times[:half][::-1], "and back")
+                self.assertTrue(all(len(time) == 18 for time in times))
+                depths = [depth for _, depth in corners]
+                self.assertAlmostEqual(min(depths), float(head[9]), places=3)
+                self.assertAlmostEqual(max(depths), float(head[12]), places=3)
+                self.assertTrue(all(near < far for near, far in zip(depths[:half], depths[half:][::-1])))
+                stamps = {re.sub(r"\D", "", row["time_utc"])[:17] for row in rows[name]}
+                self.assertLessEqual({time[:17] for time in times[1:half - 1]}, stamps, "corners at the pings of the school")
+        self.assertEqual(seen, set(rows))
+        for file in dest.glob("*.evl"):
+            lines = file.read_bytes().decode("utf-8-sig").split("\r\n")
+            self.assertRegex(lines[0], r"^EVBD 3 \S+$")
+            self.assertEqual(len(lines), 3 + int(lines[1]))
+            depths = {row["time_utc"]: float(row["bottom_depth_m"]) for of in rows.values() for row in of if row["bottom_depth_m"]}
+            for line in lines[2:-1]:
+                date, time, depth, status = line.split()
+                self.assertEqual(status, "1")
+                iso = f"{date[:4]}-{date[4:6]}-{date[6:]}T{time[:2]}:{time[2:4]}:{time[4:6]}.{time[6:9]}Z"
+                self.assertAlmostEqual(float(depth), depths[iso], delta=0.05 * depths[iso])
+
+
+class Page(html.parser.HTMLParser):
+    VOID = {"meta", "img", "wbr"}
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.tags, self.pictures, self.cells, self.links, self.texts = [], [], [], [], [], []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attrs):
+        attrs = dict(attrs)
+        self.tags.append(tag)
+        self.links += [attrs[name] for name in ("src", "href") if name in attrs]
+        if tag == "img":
+            self.pictures.append(attrs)
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        if self.open.pop() != tag:
+            raise AssertionError(f"{tag} ends what it did not begin")
+
+    def handle_data(self, data):
+        self.texts.append(data)
+        if self.open and self.open[-1] == "td":
+            self.cells.append(data)
+
+
+class HtmlReport(Case):
+    def page(self, *paths):
+        file = self.fresh("report-html") / "report.html"
+        self.sonarx("render", "report", *paths, "-o", file)
+        text = file.read_text(encoding="utf-8")
+        self.assertTrue(text.startswith("<!DOCTYPE html>\n<html lang="))
+        page = Page(text)
+        self.assertEqual(page.open, [], "everything that begins ends")
+        return text, page
+
+    def test_one_file_says_what_the_tables_say(self):
+        text, page = self.page(OUT)
+        self.assertEqual(set(page.tags) & {"script", "link", "iframe", "object", "style"}, {"style"})
+        self.assertTrue(all(link.startswith("data:image/png;base64,") for link in page.links))
+        self.assertNotRegex(text, r"(?i)\bon\w+\s*=|url\(|@import")
+        for picture in page.pictures:
+            png = base64.b64decode(picture["src"].split(",", 1)[1], validate=True)
+            width, height = struct.unpack(">II", png[16:24])
+            self.assertEqual(png[:8], b"\x89PNG\r\n\x1a\n")
+            self.assertEqual(zlib.crc32(png[12:29]), struct.unpack(">I", png[29:33])[0])
+            self.assertEqual((width, height), (2 * int(picture["width"]), 2 * int(picture["height"])))
+            self.assertTrue(picture["alt"])
+        self.assertGreater(len(page.pictures), 6)
+        for row in sonarx.read_csv(OUT / "schools.csv"):
+            for column in ("sv_mean_db", "volume_m3", "backscatter_total_se_m2", "speed_se_mps"):
+                if row[column]:
+                    self.assertIn(f"{float(row[column]):.5g}", page.cells, column)
+        said = " ".join(page.texts)
+        for words in ("SYNTHETIC", "recipe_version", "Not integrated", "What was noted", "standard error"):
+            self.assertTrue(words in said, words)
+
+    def test_integration_is_shown_and_names_are_text(self):
+        out = self.fresh("report-html-out")
+        shutil.copytree(OUT, out, dirs_exist_ok=True)
+        evil = "<script>alert(1)</script>&\"'"
+        for name, columns, row in (("effort.csv", "transect,nasc_m2_nmi2", f'"{evil.replace(chr(34), chr(34) * 2)}",12.345678'),
+                                   ("strata.csv", "level,empty", "survey,")):
+            (out / name).write_text(f"{columns}\n{row}\n", encoding="utf-8")
+        text, page = self.page(out)
+        self.assertNotIn("<script", text)
+        self.assertIn(evil, "".join(page.texts))
+        self.assertIn("12.346", page.cells)
+        self.assertNotIn("Not integrated", "".join(page.texts))
+
+    def test_it_is_no_picture(self):
+        for kind, option in (("slice-top", ()), ("report", ("--reference", OUT / "survey.json"))):
+            code, _, error = sonarx.run("render", kind, OUT, "-o", sonarx.WORK / "x.html", *option)
+            self.assertEqual(code, 2, error)
+            self.assertEqual(len(error.strip().splitlines()), 1, error)
+
+
+if __name__ == "__main__":
+    sonarx.main()
