@@ -94,7 +94,7 @@ OpenSurvey::AtWork& OpenSurvey::opened(std::size_t index) {
       std::make_shared<OpenObservation>(read_.files, index, read_.recipe, options.prefetch, options.memory_bytes);
   at.open = calibrated(at.chosen_on);
   unreplayed_.insert(index);
-  if (staged_) replay_journal();
+  if (staged_ || !unreadable_.empty()) replay_journal();
   return at;
 }
 
@@ -106,7 +106,7 @@ void OpenSurvey::replay_journal() {
 }
 
 void OpenSurvey::go_on() {
-  if (staged_) replay_journal();
+  if (staged_ || !unreadable_.empty()) replay_journal();
 }
 
 Result<void> OpenSurvey::show(std::size_t observation, std::int64_t ping) {
@@ -177,8 +177,10 @@ void OpenSurvey::take_ping(const Result<StagedPingPtr>& staged) {
     staged_ = *staged;
     tell(DocumentChange::ping);
   } else {
-    unreadable_ = to_line(staged.error());
-    tell(unreadable_);
+    // That no raw file is here is told once, when the survey is opened.
+    const std::string& gone = read_.files->raw_gone;
+    unreadable_ = gone.empty() ? to_line(staged.error()) : gone;
+    if (gone.empty()) tell(unreadable_);
     if (!staged_) tell(DocumentChange::ping);  // views say so instead of showing nothing
   }
   replay_journal();

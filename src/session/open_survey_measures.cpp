@@ -54,6 +54,11 @@ void OpenSurvey::measure(std::size_t index) {
 void OpenSurvey::measure_behind(const OpenObservationPtr& observation, const JournalState& state,
                                 const std::vector<JournalLine>& lines, const RefusedPtr& refused, KeptMeasures& kept,
                                 const CancelToken& token, Work& work) {
+  if (!observation->survey().raw_gone.empty()) {
+    const auto known = state_product_of_results(observation->engine(), state, *read_.products[observation->index()]);
+    auto shared = std::make_shared<const ObservationProduct>(known);
+    return post(token, [this, index = observation->index(), shared] { take_product(index, shared); });
+  }
   GivesWay give_way(document_.right_of_way());
   if (!kept.read) {
     kept.measured = kept_measured(measured_file(document_.options().cache, observation->survey(), observation->files()),

@@ -60,6 +60,12 @@ void OpenSurvey::detect_one(const std::shared_ptr<const SurveyFiles>& survey, st
                             const std::shared_ptr<JournalStep>& step, Work& work, const CancelToken& token) {
   const ObservationFiles& observation = survey->observations[index];
   if (!observation.grid) return;
+  if (!survey->raw_gone.empty()) {
+    const ObservationProduct& product = *read_.products[index];
+    return post(token, [this, survey, index, step, found = Found{decided_schools(product), product.rejected, nullptr}] {
+      if (survey == read_.files) take_detected(index, found, step);
+    });
+  }
   const DocumentOptions& options = document_.options();
   if (const auto room = room_for(observation, options.memory_bytes); !room) {
     return post(token, [this, line = to_line(room.error())] { tell(line); });

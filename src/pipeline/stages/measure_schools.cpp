@@ -121,26 +121,6 @@ std::vector<SchoolPingRow> rows_of(const ObservationProduct& product, std::int64
   return rows;
 }
 
-void summarise_schools(const std::vector<SchoolMasks>& schools, const Recipe& recipe, ObservationProduct& product) {
-  for (const SchoolMasks& school : schools) {
-    const std::vector<SchoolPingRow> rows = rows_of(product, school.decided.school_id);
-    if (rows.empty()) continue;
-    SchoolRow row = summarise(rows, recipe.summarise);
-    row.observation = product.observation;
-    row.school_id = school.decided.school_id;
-    row.origin = school.decided.origin;
-    row.status = school.decided.status;
-    row.operator_name = school.decided.operator_name;
-    row.decided_utc = school.decided.decided_utc;
-    row.species = school.decided.species;
-    row.comment = school.decided.comment;
-    row.name = school.decided.name;
-    row.continues = school.decided.continues;
-    row.ended_at_reach = school.decided.ended_at_reach;
-    product.schools.push_back(std::move(row));
-  }
-}
-
 using MeasuredPing = std::pair<std::int64_t, std::vector<InPingRef>>;
 
 std::vector<MeasuredPing> by_ping(const std::vector<SchoolMasks>& schools) {
@@ -171,6 +151,26 @@ void take_masks(std::vector<SchoolMasks>& schools, Faults& faults, ObservationPr
 }
 
 }  // namespace
+
+void summarise_schools(const std::vector<SchoolMasks>& schools, const Recipe& recipe, ObservationProduct& product) {
+  for (const SchoolMasks& school : schools) {
+    const std::vector<SchoolPingRow> rows = rows_of(product, school.decided.school_id);
+    if (rows.empty()) continue;
+    SchoolRow row = summarise(rows, recipe.summarise);
+    row.observation = product.observation;
+    row.school_id = school.decided.school_id;
+    row.origin = school.decided.origin;
+    row.status = school.decided.status;
+    row.operator_name = school.decided.operator_name;
+    row.decided_utc = school.decided.decided_utc;
+    row.species = school.decided.species;
+    row.comment = school.decided.comment;
+    row.name = school.decided.name;
+    row.continues = school.decided.continues;
+    row.ended_at_reach = school.decided.ended_at_reach;
+    product.schools.push_back(std::move(row));
+  }
+}
 
 std::string ended_at_reach(const SchoolMasks& school) {
   if (school.pings.empty()) return {};
