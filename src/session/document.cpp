@@ -2,11 +2,18 @@
 #include "session/document.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <span>
+#include <system_error>
 #include <utility>
 
+#include "base/number_text.h"
 #include "base/within_memory.h"
+#include "pipeline/journal/journals.h"
 #include "pipeline/journal/session_recipe.h"
+#include "pipeline/journal/taken_lines.h"
 #include "pipeline/tasks/work_folders.h"
 
 namespace sonar {
@@ -53,6 +60,22 @@ std::filesystem::path home_of(const NamedToOpen& named) {
       !named.expected.empty() && std::filesystem::is_directory(named.expected.front().parent_path(), absent);
   if (known) return named.expected.front();
   return named.work_folders.empty() ? std::filesystem::path{} : named.work_folders.front();
+}
+
+/// Whether the results are what decisions made of schools that were looked for: these have to be found again, for a
+/// product has them as the decisions left them.
+bool stand_on_detected(const NamedToOpen& named) {
+  return !named.sessions.empty() && named.recipe && named.recipe->automatic;
+}
+
+/// "12 decisions of /data/session.jsonl (Ann, Bob) are taken over into session-2.jsonl; ...".
+std::string taken_text(const TakenLines& taken, const std::filesystem::path& session,
+                       const std::string& operator_name) {
+  const bool own = taken.operators == std::vector{operator_name};
+  return fmt::format("{} of {} ({}) {} taken over into {}{}; Diagnostics lists those that find no school",
+                     count_of(taken.lines, "decision"), session.string(), fmt::join(taken.operators, ", "),
+                     taken.lines == 1 ? "is" : "are", taken.into.filename().string(),
+                     own ? ", as one step to undo" : "");
 }
 
 /// Where raw files lie, or lay.
@@ -143,7 +166,7 @@ void Document::read(Opening what) {
     auto survey = survey_of(*named, recipe, work);
     if (!survey) return end_with(survey.error(), token, opening);
     const auto files = std::make_shared<const SurveyFiles>(std::move(survey->survey));
-    auto place = place_journal(folders, head_of(*files, recipe), options_.operator_name);
+    auto place = placed(*named, folders, head_of(*files, recipe));
     if ((asked || of_run) && place) {
       const auto kept = keep_recipe(place->path.parent_path(), recipe);
       if (!kept) place->notices.push_back("the recipe is not kept: " + to_line(kept.error()));
@@ -164,6 +187,39 @@ void Document::read(Opening what) {
     });
   };
   run(job, opening);
+}
+
+/// Where the journal goes, with what humans had decided of the results that are opened, told in one notice.
+Result<JournalPlace> Document::placed(const NamedToOpen& named, const std::vector<std::filesystem::path>& folders,
+                                      const Journal& head) const {
+  auto place = place_journal(folders, head, options_.operator_name);
+  // Without raw files their products, which have the decisions in them, are what is shown.
+  if (!place || !named.raw_gone.empty()) return place;
+  std::vector<std::filesystem::path> sessions = named.sessions;
+  for (const auto& out : named.work_folders) add_sessions_beside(out, folders, sessions);
+  std::vector<std::string> notices;
+  bool taken = false;
+  for (const auto& session : sessions) {
+    const auto lines = take_lines(*place, session);
+    if (!lines) notices.push_back("decisions of the results are not taken over: " + to_line(lines.error()));
+    if (!lines || lines->lines == 0) continue;
+    taken = true;
+    notices.push_back(taken_text(*lines, session, options_.operator_name));
+    (void)place->read_lines();
+  }
+  if (taken) place = place_journal(folders, head, options_.operator_name);
+  if (place) place->notices.insert(place->notices.end(), notices.begin(), notices.end());
+  return place;
+}
+
+/// Where results are opened alone, decisions lie beside them.
+void Document::add_sessions_beside(const std::filesystem::path& out, const std::vector<std::filesystem::path>& folders,
+                                   std::vector<std::filesystem::path>& sessions) const {
+  if (!options_.journal_folders) return;
+  for (const auto& beside : options_.journal_folders(out)) {
+    const bool ours = std::find(folders.begin(), folders.end(), beside) != folders.end();
+    if (!ours && !journals_in(std::span(&beside, 1)).empty()) sessions.push_back(beside);
+  }
 }
 
 /// As its files tell it, or, without these, its results.

@@ -94,6 +94,7 @@ Result<void> take_work_folder(const fs::path& out, bool stands_alone, NamedToOpe
     if (!plan) return pass_on(plan);
     if (stands_alone) raw = raw_of(*plan, out);
     if (!raw) named.expected.insert(named.expected.end(), plan->survey.begin(), plan->survey.end());
+    if (!plan->session.empty()) add_once(named.sessions, plan->session);
     recipe = std::move(plan->recipe);
   } else {
     recipe = recipe_of_products(out);

@@ -23,6 +23,7 @@ struct NamedToOpen {
   /// Why no raw files are known that the results are of, in a line: what products hold is all there is. Empty = `raw` are.
   std::string raw_gone{};
   std::vector<std::filesystem::path> expected{};  ///< where those lay; empty = not told
+  std::vector<std::filesystem::path> sessions{};  ///< journals, or folders of them, whose decisions the runs were given
 };
 
 /// A work folder stands for the raw files that its plan names, unless others are named beside it.
