@@ -17,6 +17,7 @@ OpenSurvey::OpenSurvey(Document& document, ChangeQueue& queue, SurveyRead read)
   if (!read_.files) return;
   JournalPlace place = read_.place ? std::move(*read_.place) : JournalPlace{};
   choices_.journal = place.path;
+  journal_folder_ = place.path.parent_path();
   choices_.lines = std::make_shared<const std::vector<JournalLine>>(place.lines);  // known before they are replayed
   choices_thread_ = std::make_unique<Choices>(
       queue_, std::move(place),

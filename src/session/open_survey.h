@@ -164,6 +164,7 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
                       const CancelToken& token, Work& work);
   [[nodiscard]] std::string key_of(OpenObservation& observation) const;
   void keep_measures();
+  [[nodiscard]] std::vector<IndexCache> kept_in() const;
   void take_measured();
   void take_product(std::size_t observation, const ProductPtr& product);
   void follow_calibration();
@@ -173,6 +174,7 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
   Document& document_;
   ChangeQueue& queue_;
   SurveyRead read_;  ///< but for the place of its journal, which choices_thread_ has; the files grow
+  std::filesystem::path journal_folder_;  ///< empty = the journal has none
   std::map<std::size_t, AtWork> open_;
   std::set<std::size_t> unreplayed_;     ///< of these the journal's lines wait until something is seen
   std::vector<std::size_t> undetected_;  ///< so does the detection that they ask for, and what runs found
