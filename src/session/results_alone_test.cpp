@@ -115,6 +115,21 @@ TEST_F(ResultsWithoutRaw, FiguresOfASchoolThatWasChangedSinceAreNotKept) {
   EXPECT_TRUE(is.input_hash.empty());
 }
 
+TEST_F(ResultsWithoutRaw, FiguresUnderAnotherCalibrationAreNotKnown) {
+  open({out_});
+  CalibrateCommand calibrate;
+  calibrate.calibration = document().recipe().calibration;
+  calibrate.calibration.beams.push_back({channel(2, 5), kUnknown, kUnknown, 1.5});
+  document().act(calibrate);
+  document().settle();
+  ASSERT_TRUE(document().product(0));
+  EXPECT_TRUE(document().product(0)->school_pings.empty());
+  EXPECT_FALSE(document().product(0)->masks.empty());
+  document().undo();
+  document().settle();
+  EXPECT_EQ(document().product(0)->school_pings.size(), product_of(0).school_pings.size());
+}
+
 TEST_F(ResultsWithoutRaw, AnActThatNeedsSamplesSaysWhyItCannotBeDone) {
   open({out_});
   GrowCommand grow;

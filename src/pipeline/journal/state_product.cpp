@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <string>
 #include <utility>
 
 #include "pipeline/journal/continued.h"
@@ -26,6 +27,18 @@ std::vector<SchoolMasks> numbered_as_shown(const Engine& engine, JournalState st
   return schools;
 }
 
+std::string hash_of(const CalibrationParams& calibration) {
+  Recipe recipe;
+  recipe.calibration = calibration;
+  return recipe_hash(recipe);
+}
+
+/// Figures follow the calibration; of a recipe that cannot be read it is taken for the same.
+bool measured_under(const ObservationProduct& product, const CalibrationParams& calibration) {
+  const auto recipe = recipe_from_text(product.recipe_json);
+  return !recipe || hash_of(recipe->calibration) == hash_of(calibration);
+}
+
 /// By school and ping.
 template <class Row>
 std::map<std::pair<std::int64_t, std::int64_t>, const Row*> by_school_and_ping(const std::vector<Row>& rows) {
@@ -39,7 +52,8 @@ std::map<std::pair<std::int64_t, std::int64_t>, const Row*> by_school_and_ping(c
 ObservationProduct state_product_of_results(const Engine& engine, const JournalState& state,
                                             const ObservationProduct& measured) {
   const auto masks = by_school_and_ping(measured.masks);
-  const auto rows = by_school_and_ping(measured.school_pings);
+  auto rows = by_school_and_ping(measured.school_pings);
+  if (!measured_under(measured, engine.recipe().calibration)) rows.clear();
   ObservationProduct product = measured;
   product.input_hash.clear();
   product.schools.clear();

@@ -30,7 +30,8 @@ struct StateProductOptions {
 [[nodiscard]] Result<ObservationProduct> state_product(Engine& engine, const JournalState& state,
                                                        const StateProductOptions& options, Work& work);
 
-/// The same where no ping can be read: figures that a product has of the same masks stay, others are not known. It says of no
+/// The same where no ping can be read: figures that a product has of the same masks, under the same
+/// calibration, stay; others are not known. It says of no
 /// raw files that it is made of them: its key is empty.
 /// measured  the product that the state's schools were found in, see decided_schools()
 [[nodiscard]] ObservationProduct state_product_of_results(const Engine& engine, const JournalState& state,
