@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// sonar_bench_reopen [REPETITIONS [GIGABYTES]]: how long the desktop takes from the wish to open a survey with the results
+// sonar_bench_reopen [REPETITIONS [GIGABYTES [FOLDER]]]: how long the desktop takes from the wish to open a survey with the results
 // of a run to its first picture, to the first picture with schools, and to the figures of all schools. On the demo survey,
 // and on a survey of 40 files that are made large (40 GB in all) by holes: it has few pings for its size, so that the time
 // for what lies between them is what is added. Opened before, as a user's second visit finds it: indexed, measured, from
-// memory. Each opening must show the schools of the products before it counts.
+// memory. Each opening must show the schools of the products before it counts. What is made in FOLDER stays there, and is
+// used again; without one it is made anew and taken away.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -89,6 +90,9 @@ void run(const Case& survey) {
   std::ofstream(survey.out() / "plan.json") << plan_text(plan);
 }
 
+/// The plan is written last.
+bool made(const Case& survey) { return fs::exists(survey.out() / "plan.json"); }
+
 /// Whether a school lies in the ping on show.
 bool shows_a_school(const Document& document) {
   const auto& staged = document.staged();
@@ -164,8 +168,10 @@ bool reopen(const Case& survey, int repetitions) {
 
 bool demo(const fs::path& folder, int repetitions) {
   const Case survey{"demo", folder / "demo", kTargetDemo_ms};
-  simulate(survey, synth::survey_params(synth::Preset::demo));
-  run(survey);
+  if (!made(survey)) {
+    simulate(survey, synth::survey_params(synth::Preset::demo));
+    run(survey);
+  }
   return reopen(survey, repetitions);
 }
 
@@ -175,18 +181,21 @@ bool large(const fs::path& folder, int repetitions, double gigabytes) {
   params.observations = kLargeFiles;
   params.pings = 12;
   params.schools = 2;
-  simulate(survey, params);
-  enlarge(survey, gigabytes * 1e9);
-  run(survey);
+  if (!made(survey)) {
+    simulate(survey, params);
+    enlarge(survey, gigabytes * 1e9);
+    run(survey);
+  }
   return reopen(survey, repetitions);
 }
 
-int run(int repetitions, double gigabytes) {
-  const auto folder = fs::temp_directory_path() / fmt::format("sonar-bench-reopen-{}", ::getpid());
+int run(int repetitions, double gigabytes, const fs::path& kept) {
+  const auto folder =
+      kept.empty() ? fs::temp_directory_path() / fmt::format("sonar-bench-reopen-{}", ::getpid()) : kept;
   const bool small_within = demo(folder, repetitions);
   const bool large_within = large(folder, repetitions, gigabytes);
   std::error_code ignored;
-  fs::remove_all(folder, ignored);
+  if (kept.empty()) fs::remove_all(folder, ignored);
   return small_within && large_within ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
@@ -194,5 +203,6 @@ int run(int repetitions, double gigabytes) {
 }  // namespace sonar::bench
 
 int main(int argc, char** argv) {
-  return sonar::bench::run(argc > 1 ? std::max(1, std::atoi(argv[1])) : 9, argc > 2 ? std::atof(argv[2]) : 40.0);
+  return sonar::bench::run(argc > 1 ? std::max(1, std::atoi(argv[1])) : 9, argc > 2 ? std::atof(argv[2]) : 40.0,
+                           argc > 3 ? argv[3] : "");
 }
