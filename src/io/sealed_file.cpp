@@ -98,7 +98,7 @@ std::optional<std::vector<std::byte>> SealedFile::block(std::size_t index) const
 }
 
 void SealedFile::store(const std::filesystem::path& path, std::string_view key,
-                       std::span<const std::vector<std::byte>> blocks) {
+                       std::span<const std::vector<std::byte>> blocks, Beside beside) {
   if (blocks.size() > kMostBlocks) return;
   std::string out(kMagic);
   put(out, kVersion);
@@ -110,7 +110,7 @@ void SealedFile::store(const std::filesystem::path& path, std::string_view key,
   }
   put(out, hash_bytes(std::as_bytes(std::span(out))));
   for (const auto& block : blocks) out.append(reinterpret_cast<const char*>(block.data()), block.size());
-  (void)write_file(path, out, Beside::users_cache);
+  (void)write_file(path, out, beside);
 }
 
 }  // namespace sonar

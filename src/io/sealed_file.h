@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/hash.h"
+#include "io/atomic_file.h"
 #include "io/byte_source.h"
 
 namespace sonar {
@@ -28,7 +29,7 @@ class SealedFile {
 
   /// Writes whole or not at all. Failure is no error: what is not kept is made again.
   static void store(const std::filesystem::path& path, std::string_view key,
-                    std::span<const std::vector<std::byte>> blocks);
+                    std::span<const std::vector<std::byte>> blocks, Beside beside = Beside::users_cache);
 
  private:
   struct Block {

@@ -54,7 +54,9 @@ Rows* AppModel::rows(const std::string& id) {
 
 std::string idle_text(const AppModel& app, const std::string& dock) {
   const Document& document = app.workspace.document;
-  if (document.survey() != nullptr && dock == "chart" && document.nothing_shown().empty()) {
+  const bool has_figures =
+      document.survey() != nullptr && (document.nothing_shown().empty() || !document.survey()->raw_gone.empty());
+  if (has_figures && dock == "chart") {
     return "A chart of schools' figures stands here as soon as schools are measured.";
   }
   if (document.survey() != nullptr && dock == "frequency" && document.nothing_shown().empty()) {

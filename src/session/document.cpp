@@ -2,11 +2,18 @@
 #include "session/document.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <span>
+#include <system_error>
 #include <utility>
 
+#include "base/number_text.h"
 #include "base/within_memory.h"
+#include "pipeline/journal/journals.h"
 #include "pipeline/journal/session_recipe.h"
+#include "pipeline/journal/taken_lines.h"
 #include "pipeline/tasks/work_folders.h"
 
 namespace sonar {
@@ -43,6 +50,47 @@ std::set<std::size_t> found_in(const std::vector<std::filesystem::path>& work_fo
     if (!product_in(work_folders, observation.name, key).empty()) found.insert(i);
   }
   return found;
+}
+
+/// What the journal of a survey lies beside: its raw files, or, where even the folder above them is not here, its results.
+std::filesystem::path home_of(const NamedToOpen& named) {
+  if (!named.raw.empty()) return named.raw.front();
+  std::error_code absent;
+  const bool known =
+      !named.expected.empty() && std::filesystem::is_directory(named.expected.front().parent_path(), absent);
+  if (known) return named.expected.front();
+  return named.work_folders.empty() ? std::filesystem::path{} : named.work_folders.front();
+}
+
+/// Whether the results are what decisions made of schools that were looked for: these have to be found again, for a
+/// product has them as the decisions left them.
+bool stand_on_detected(const NamedToOpen& named) {
+  return !named.sessions.empty() && named.recipe && named.recipe->automatic;
+}
+
+/// "12 decisions of /data/session.jsonl (Ann, Bob) are taken over into session-2.jsonl; ...".
+std::string taken_text(const TakenLines& taken, const std::filesystem::path& session,
+                       const std::string& operator_name) {
+  const bool own = taken.operators == std::vector{operator_name};
+  return fmt::format("{} of {} ({}) {} taken over into {}{}; Diagnostics lists those that find no school",
+                     count_of(taken.lines, "decision"), session.string(), fmt::join(taken.operators, ", "),
+                     taken.lines == 1 ? "is" : "are", taken.into.filename().string(),
+                     own ? ", as one step to undo" : "");
+}
+
+/// Where raw files lie, or lay.
+std::vector<std::filesystem::path> raw_of(const NamedToOpen& named) {
+  if (!named.raw.empty()) return named.raw;
+  return named.expected.empty() ? named.work_folders : named.expected;
+}
+
+/// Every one with a grid.
+std::set<std::size_t> all_with_grid(const SurveyFiles& survey) {
+  std::set<std::size_t> all;
+  for (std::size_t i = 0; i < survey.observations.size(); ++i) {
+    if (survey.observations[i].grid) all.insert(i);
+  }
+  return all;
 }
 
 }  // namespace
@@ -108,16 +156,17 @@ void Document::read(Opening what) {
     }
     const auto named = told_apart(opening->paths);
     if (!named) return end_with(named.error(), token, opening);
-    const auto folders = options_.journal_folders && !named->raw.empty() ? options_.journal_folders(named->raw.front())
-                                                                         : std::vector<std::filesystem::path>{};
+    const auto home = home_of(*named);
+    const auto folders = options_.journal_folders && !home.empty() ? options_.journal_folders(home)
+                                                                   : std::vector<std::filesystem::path>{};
     Recipe recipe = asked ? *asked : recipe_of(folders, token);
     recipe.automatic = false;  // schools are detected when that is asked for
     const bool of_run = !asked && take_recipe(named->recipe, recipe);
-    if (none) glance_at(named->raw, recipe, work, token);
-    auto survey = open_survey(named->raw, recipe.survey, recipe.navigation, options_.cache, work);
+    if (none && !named->raw.empty()) glance_at(named->raw, recipe, work, token);
+    auto survey = survey_of(*named, recipe, work);
     if (!survey) return end_with(survey.error(), token, opening);
-    const auto files = std::make_shared<const SurveyFiles>(std::move(*survey));
-    auto place = place_journal(folders, head_of(*files, recipe), options_.operator_name);
+    const auto files = std::make_shared<const SurveyFiles>(std::move(survey->survey));
+    auto place = placed(*named, folders, head_of(*files, recipe));
     if ((asked || of_run) && place) {
       const auto kept = keep_recipe(place->path.parent_path(), recipe);
       if (!kept) place->notices.push_back("the recipe is not kept: " + to_line(kept.error()));
@@ -126,15 +175,59 @@ void Document::read(Opening what) {
       place->notices.push_back(fmt::format("from now on this survey is opened under the recipe of {}",
                                            named->work_folders.front().string()));
     }
-    const auto found = found_in(named->work_folders, *files, recipe, options_.program_version);
+    if (!files->raw_gone.empty() && place) place->notices.push_back(files->raw_gone + " ([file.find_raw])");
+    const auto found = files->raw_gone.empty() ? found_in(named->work_folders, *files, recipe, options_.program_version)
+                                               : all_with_grid(*files);
     post(token, [this, asked, opening,
-                 read = SurveyRead{recipe, files, opening->paths, named->raw, named->work_folders, found, place}] {
+                 read = SurveyRead{recipe, files, opening->paths, raw_of(*named), named->work_folders, found, place,
+                                   survey->products}] {
       if (opening_ != opening) return;  // something else was asked for since
       if (asked == asked_recipe_) asked_recipe_.reset();
       take(read, opening->back_to);
     });
   };
   run(job, opening);
+}
+
+/// Where the journal goes, with what humans had decided of the results that are opened, told in one notice.
+Result<JournalPlace> Document::placed(const NamedToOpen& named, const std::vector<std::filesystem::path>& folders,
+                                      const Journal& head) const {
+  auto place = place_journal(folders, head, options_.operator_name);
+  // Without raw files their products, which have the decisions in them, are what is shown.
+  if (!place || !named.raw_gone.empty()) return place;
+  std::vector<std::filesystem::path> sessions = named.sessions;
+  for (const auto& out : named.work_folders) add_sessions_beside(out, folders, sessions);
+  std::vector<std::string> notices;
+  bool taken = false;
+  for (const auto& session : sessions) {
+    const auto lines = take_lines(*place, session);
+    if (!lines) notices.push_back("decisions of the results are not taken over: " + to_line(lines.error()));
+    if (!lines || lines->lines == 0) continue;
+    taken = true;
+    notices.push_back(taken_text(*lines, session, options_.operator_name));
+    (void)place->read_lines();
+  }
+  if (taken) place = place_journal(folders, head, options_.operator_name);
+  if (place) place->notices.insert(place->notices.end(), notices.begin(), notices.end());
+  return place;
+}
+
+/// Where results are opened alone, decisions lie beside them.
+void Document::add_sessions_beside(const std::filesystem::path& out, const std::vector<std::filesystem::path>& folders,
+                                   std::vector<std::filesystem::path>& sessions) const {
+  if (!options_.journal_folders) return;
+  for (const auto& beside : options_.journal_folders(out)) {
+    const bool ours = std::find(folders.begin(), folders.end(), beside) != folders.end();
+    if (!ours && !journals_in(std::span(&beside, 1)).empty()) sessions.push_back(beside);
+  }
+}
+
+/// As its files tell it, or, without these, its results.
+Result<ResultsAlone> Document::survey_of(const NamedToOpen& named, const Recipe& recipe, Work& work) const {
+  if (!named.raw_gone.empty()) return open_results(named.work_folders, named.raw_gone, work);
+  auto survey = open_survey(named.raw, recipe.survey, recipe.navigation, options_.cache, work);
+  if (!survey) return pass_on(survey);
+  return ResultsAlone{std::move(*survey), {}};
 }
 
 void Document::end_with(const Error& error, const CancelToken& token, const OpeningPtr& opening) {
@@ -161,7 +254,7 @@ void Document::use_recipe(Recipe recipe) {
   if (survey() == nullptr) return;
   std::optional<std::pair<std::size_t, std::int64_t>> back_to;
   if (shown()) back_to = {shown()->index(), ping()};
-  read({paths(), {}, back_to});
+  read({survey()->raw_gone.empty() ? paths() : named(), {}, back_to});
 }
 
 /// The one that was chosen for a survey before, else the usual one.

@@ -16,6 +16,8 @@
 #include "base/work.h"
 #include "pipeline/recipe/recipe.h"
 #include "pipeline/survey/survey.h"
+#include "pipeline/tasks/results_alone.h"
+#include "pipeline/tasks/work_folders.h"
 #include "session/change_queue.h"
 #include "session/listeners.h"
 #include "session/open_survey.h"
@@ -206,6 +208,11 @@ class Document {
   void run(std::function<void(Work&, const CancelToken&)> job, OpeningPtr opening);
   void glance_at(const std::vector<std::filesystem::path>& paths, const Recipe& recipe, Work& work,
                  const CancelToken& token);
+  [[nodiscard]] Result<JournalPlace> placed(const NamedToOpen& named, const std::vector<std::filesystem::path>& folders,
+                                            const Journal& head) const;
+  void add_sessions_beside(const std::filesystem::path& out, const std::vector<std::filesystem::path>& folders,
+                           std::vector<std::filesystem::path>& sessions) const;
+  [[nodiscard]] Result<ResultsAlone> survey_of(const NamedToOpen& named, const Recipe& recipe, Work& work) const;
   void end_with(const Error& error, const CancelToken& token, const OpeningPtr& opening);
   [[nodiscard]] Recipe recipe_of(const std::vector<std::filesystem::path>& folders, const CancelToken& token);
   void take(SurveyRead read, const std::optional<std::pair<std::size_t, std::int64_t>>& back_to);

@@ -28,7 +28,7 @@ class EarlierFind : public testing::Test {
     document_->settle();
   }
   [[nodiscard]] fs::path find() const {
-    return detected_file({folder_ / "cache"}, *document_->survey(), document_->survey()->observations[0]);
+    return detected_file({folder_ / "found"}, *document_->survey(), document_->survey()->observations[0]);
   }
   /// A voxel of the last sample of a school's middle mask, farther out than its own end by so many samples.
   [[nodiscard]] SchoolKey beyond(std::int64_t school_id, const ObservationProduct& product, int samples) const {

@@ -72,6 +72,11 @@ Snapshot snapshot_of(const Workspace& workspace) {
 Result<ObservationProduct> product_of(const Snapshot& snapshot, const ReadJournal& journal, std::size_t index,
                                       Work& work) {
   const ObservationFiles& observation = snapshot.survey->observations[index];
+  if (!snapshot.survey->raw_gone.empty()) {
+    const auto known = snapshot.products.find(index);
+    if (known == snapshot.products.end()) return fail(ErrorCode::not_found, snapshot.survey->raw_gone);
+    return *known->second;
+  }
   if (observation.grid) {
     if (auto room = room_for(observation, snapshot.memory_bytes); !room) return pass_on(room);
   }

@@ -166,7 +166,7 @@ TEST_F(Exports, WhatWasFoundIsThereAtTheNextOpeningWithoutASearch) {
   const Masks found = masks_of(document());
   ASSERT_FALSE(found.empty());
   std::size_t kept = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(out_ / "cache")) {
+  for (const auto& entry : fs::recursive_directory_iterator(journal_)) {
     if (entry.path().string().ends_with(".detected.nc")) ++kept;
   }
   EXPECT_EQ(kept, 2U);
@@ -174,7 +174,7 @@ TEST_F(Exports, WhatWasFoundIsThereAtTheNextOpeningWithoutASearch) {
   EXPECT_TRUE(document().detected(0) && document().detected(1));
   EXPECT_TRUE(masks_of(document()) == found);
   // A damaged one is looked for again.
-  for (const auto& entry : fs::recursive_directory_iterator(out_ / "cache")) {
+  for (const auto& entry : fs::recursive_directory_iterator(journal_)) {
     if (entry.path().string().ends_with(".detected.nc")) std::ofstream(entry.path()) << "nonsense";
   }
   open();

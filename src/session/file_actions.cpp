@@ -42,6 +42,16 @@ void open_files(AppModel& app) {
   if (!names.empty()) app.workspace.document.open({names.begin(), names.end()});
 }
 
+/// Beside the results that are open.
+void find_raw(AppModel& app) {
+  if (!app.dialogs.folder_to_open) return;
+  const std::string folder = app.dialogs.folder_to_open();
+  if (folder.empty()) return;
+  std::vector<fs::path> named = app.workspace.document.named();
+  named.emplace_back(folder);
+  app.workspace.document.open(std::move(named));
+}
+
 std::string recent_text(const AppModel& app, std::size_t at) {
   if (at >= app.preferences.recent.size()) return {};
   return text_of(app.preferences.recent[at]);
@@ -60,6 +70,17 @@ void add_opening(AppModel& app) {
                    .keys = {"Ctrl+Shift+O"},
                    .tip = "Open some raw files as a survey",
                    .run = [&app] { open_files(app); }});
+  app.actions.add({.id = "file.find_raw",
+                   .menu = kFile,
+                   .text = "Find raw files...",
+                   .keys = {"Ctrl+Alt+O"},
+                   .tip = "Say where the raw files lie now that the results on show were made of",
+                   .run = [&app] { find_raw(app); },
+                   .enabled =
+                       [&app] {
+                         const SurveyFiles* survey = app.workspace.document.survey();
+                         return survey != nullptr && !survey->raw_gone.empty();
+                       }});
   app.actions.add({.id = "file.demo",
                    .menu = kFile,
                    .text = "Demo survey",

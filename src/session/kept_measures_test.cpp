@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A survey that is opened again has its schools' figures from the cache.
+// A survey that is opened again has its schools' figures from beside its journal.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "model/school.h"
+#include "pipeline/stages/detected_cache.h"
 #include "pipeline/stages/measured_pings.h"
 #include "pipeline/stages/observe.h"
 #include "session/test_survey.h"
@@ -52,7 +53,7 @@ class KeptMeasures : public testing::Test {
     document_->settle();
   }
   [[nodiscard]] fs::path file() const {
-    return measured_file({folder_ / "cache"}, *document_->survey(), document_->survey()->observations[0]);
+    return measured_file({folder_ / "found"}, *document_->survey(), document_->survey()->observations[0]);
   }
   [[nodiscard]] std::string key() const {
     Recipe recipe = document_->measuring_recipe();
@@ -126,6 +127,31 @@ TEST_F(KeptMeasures, ThatAreDamagedOrOfAnotherRecipeAreMeasuredAnew) {
   EXPECT_TRUE(kept_measured(kept_in, under).pings.empty());
   open();
   EXPECT_EQ(text_of(rows()), text_of(before));
+}
+
+TEST_F(KeptMeasures, OfAnEarlierVersionAreTakenFromTheCache) {
+  open();
+  detect();
+  const fs::path kept_in = file();
+  const fs::path earlier = folder_ / "cache" / kept_in.filename();
+  document_.reset();
+  ASSERT_TRUE(fs::exists(kept_in));
+  EXPECT_FALSE(fs::exists(earlier)) << "one place is enough";
+  fs::rename(kept_in, earlier);
+  open();
+  document_.reset();
+  EXPECT_FALSE(fs::exists(kept_in)) << "nothing had to be measured";
+}
+
+TEST_F(KeptMeasures, WithoutAJournalAreKeptInTheCache) {
+  DocumentOptions options = TestSurvey::options(folder_);
+  options.cache.folder = folder_ / "cache";
+  options.journal_folders = [](const auto&) { return std::vector<fs::path>{}; };
+  document_ = std::make_unique<Document>(queue_, options);
+  document_->open({TestSurvey::easy().folder()});
+  document_->settle();
+  detect();
+  EXPECT_TRUE(fs::exists(detected_file(options.cache, *document_->survey(), document_->survey()->observations[0])));
 }
 
 }  // namespace

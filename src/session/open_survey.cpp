@@ -17,6 +17,7 @@ OpenSurvey::OpenSurvey(Document& document, ChangeQueue& queue, SurveyRead read)
   if (!read_.files) return;
   JournalPlace place = read_.place ? std::move(*read_.place) : JournalPlace{};
   choices_.journal = place.path;
+  journal_folder_ = place.path.parent_path();
   choices_.lines = std::make_shared<const std::vector<JournalLine>>(place.lines);  // known before they are replayed
   choices_thread_ = std::make_unique<Choices>(
       queue_, std::move(place),
@@ -94,7 +95,7 @@ OpenSurvey::AtWork& OpenSurvey::opened(std::size_t index) {
       std::make_shared<OpenObservation>(read_.files, index, read_.recipe, options.prefetch, options.memory_bytes);
   at.open = calibrated(at.chosen_on);
   unreplayed_.insert(index);
-  if (staged_) replay_journal();
+  if (staged_ || !unreadable_.empty()) replay_journal();
   return at;
 }
 
@@ -106,7 +107,7 @@ void OpenSurvey::replay_journal() {
 }
 
 void OpenSurvey::go_on() {
-  if (staged_) replay_journal();
+  if (staged_ || !unreadable_.empty()) replay_journal();
 }
 
 Result<void> OpenSurvey::show(std::size_t observation, std::int64_t ping) {
@@ -177,8 +178,10 @@ void OpenSurvey::take_ping(const Result<StagedPingPtr>& staged) {
     staged_ = *staged;
     tell(DocumentChange::ping);
   } else {
-    unreadable_ = to_line(staged.error());
-    tell(unreadable_);
+    // That no raw file is here is told once, when the survey is opened.
+    const std::string& gone = read_.files->raw_gone;
+    unreadable_ = gone.empty() ? to_line(staged.error()) : gone;
+    if (gone.empty()) tell(unreadable_);
     if (!staged_) tell(DocumentChange::ping);  // views say so instead of showing nothing
   }
   replay_journal();

@@ -57,6 +57,8 @@ struct SurveyRead {
   std::vector<std::filesystem::path> work_folders{};  ///< of runs, in which schools were found before
   std::set<std::size_t> found{};  ///< observations whose schools those have as detect() would find them
   Result<JournalPlace> place = JournalPlace{};
+  /// [observation] of results whose raw files are not here (SurveyFiles::raw_gone); empty = pings can be read.
+  std::vector<std::shared_ptr<const ObservationProduct>> products{};
 };
 
 /// One survey at work, from its opening until another takes its place: what is read and chosen of it, looked at and
@@ -162,6 +164,7 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
                       const CancelToken& token, Work& work);
   [[nodiscard]] std::string key_of(OpenObservation& observation) const;
   void keep_measures();
+  [[nodiscard]] std::vector<IndexCache> kept_in() const;
   void take_measured();
   void take_product(std::size_t observation, const ProductPtr& product);
   void follow_calibration();
@@ -171,6 +174,7 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
   Document& document_;
   ChangeQueue& queue_;
   SurveyRead read_;  ///< but for the place of its journal, which choices_thread_ has; the files grow
+  std::filesystem::path journal_folder_;  ///< empty = the journal has none
   std::map<std::size_t, AtWork> open_;
   std::set<std::size_t> unreplayed_;     ///< of these the journal's lines wait until something is seen
   std::vector<std::size_t> undetected_;  ///< so does the detection that they ask for, and what runs found

@@ -54,10 +54,18 @@ void OpenSurvey::measure(std::size_t index) {
 void OpenSurvey::measure_behind(const OpenObservationPtr& observation, const JournalState& state,
                                 const std::vector<JournalLine>& lines, const RefusedPtr& refused, KeptMeasures& kept,
                                 const CancelToken& token, Work& work) {
+  if (!observation->survey().raw_gone.empty()) {
+    const auto known = state_product_of_results(observation->engine(), state, *read_.products[observation->index()]);
+    auto shared = std::make_shared<const ObservationProduct>(known);
+    return post(token, [this, index = observation->index(), shared] { take_product(index, shared); });
+  }
   GivesWay give_way(document_.right_of_way());
   if (!kept.read) {
-    kept.measured = kept_measured(measured_file(document_.options().cache, observation->survey(), observation->files()),
-                                  key_of(*observation));
+    for (const IndexCache& in : kept_in()) {
+      if (!kept.measured.pings.empty()) break;
+      kept.measured =
+          kept_measured(measured_file(in, observation->survey(), observation->files()), key_of(*observation));
+    }
     kept.read = true;
   }
   for (const std::int64_t ping_index : pings_to_measure(observation->engine(), state, kept.measured)) {
@@ -83,6 +91,14 @@ std::string OpenSurvey::key_of(OpenObservation& observation) const {
                      document_.options().program_version);
 }
 
+/// Where what was found and measured is kept: beside the journal, so that it goes where that goes; else in the user's cache,
+/// where versions before kept it. Nowhere where there is no cache.
+std::vector<IndexCache> OpenSurvey::kept_in() const {
+  const IndexCache& cache = document_.options().cache;
+  if (cache.folder.empty() || journal_folder_.empty()) return {cache};
+  return {{journal_folder_ / "found"}, cache};
+}
+
 /// For the next time the survey is opened.
 void OpenSurvey::keep_measures() {
   for (const auto& [index, at] : open_) {
@@ -91,7 +107,7 @@ void OpenSurvey::keep_measures() {
   measures_.wait();
   for (const auto& [index, at] : open_) {
     if (!at.kept->measured.changed) continue;
-    const auto file = measured_file(document_.options().cache, at.open->survey(), at.open->files());
+    const auto file = measured_file(kept_in().front(), at.open->survey(), at.open->files());
     keep_measured(file, key_of(*at.open), at.kept->measured);
   }
 }

@@ -60,6 +60,12 @@ void OpenSurvey::detect_one(const std::shared_ptr<const SurveyFiles>& survey, st
                             const std::shared_ptr<JournalStep>& step, Work& work, const CancelToken& token) {
   const ObservationFiles& observation = survey->observations[index];
   if (!observation.grid) return;
+  if (!survey->raw_gone.empty()) {
+    const ObservationProduct& product = *read_.products[index];
+    return post(token, [this, survey, index, step, found = Found{decided_schools(product), product.rejected, nullptr}] {
+      if (survey == read_.files) take_detected(index, found, step);
+    });
+  }
   const DocumentOptions& options = document_.options();
   if (const auto room = room_for(observation, options.memory_bytes); !room) {
     return post(token, [this, line = to_line(room.error())] { tell(line); });
@@ -67,17 +73,24 @@ void OpenSurvey::detect_one(const std::shared_ptr<const SurveyFiles>& survey, st
   Recipe recipe = read_.recipe;
   recipe.automatic = true;
   const ObserveOptions observe_options{{}, {}, options.program_version};
-  const auto file = detected_file(options.cache, *survey, observation);
+  std::vector<std::filesystem::path> files;
+  for (const IndexCache& in : kept_in()) files.push_back(detected_file(in, *survey, observation));
   const std::string key = key_of_find(*survey, observation, recipe, options.program_version);
-  const auto take = [&, earlier = earlier_found(file, *survey, observation)](const ObservationProduct& product) {
+  std::shared_ptr<const EarlierSchools> earlier;
+  for (const auto& file : files) {
+    if (!earlier) earlier = earlier_found(file, *survey, observation);
+  }
+  const auto take = [&](const ObservationProduct& product) {
     post(token, [this, survey, index, step, found = Found{detected_schools(product), product.rejected, earlier}] {
       if (survey == read_.files) take_detected(index, found, step);
     });
   };
-  if (const auto kept = kept_detected(file, key)) return take(*kept);
+  for (const auto& file : files) {
+    if (const auto kept = kept_detected(file, key)) return take(*kept);
+  }
   if (const auto of_run = kept_detected(product_in(read_.work_folders, observation.name, key), key)) {
     take(*of_run);
-    return keep_detected(file, *of_run);
+    return keep_detected(files.front(), *of_run);
   }
   auto product = observe(*survey, observation, recipe, observe_options, work);
   if (!product) {
@@ -85,7 +98,7 @@ void OpenSurvey::detect_one(const std::shared_ptr<const SurveyFiles>& survey, st
     return post(token, [this, line = to_line(product.error())] { tell(line); });
   }
   take(*product);
-  keep_detected(file, *product);
+  keep_detected(files.front(), *product);
 }
 
 void OpenSurvey::take_detected(std::size_t index, Found found, const std::shared_ptr<JournalStep>& step) {

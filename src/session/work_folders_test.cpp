@@ -117,21 +117,6 @@ TEST_F(WorkFolders, OfAnotherVersionOpenTheirSurveyAndALineSaysToDetectAgain) {
   EXPECT_EQ(schools(0), 2U);
 }
 
-TEST_F(WorkFolders, WhoseRawFilesAreGoneSayInOneLineWhatWasExpected) {
-  move_raw_away();
-  open({out_});
-  EXPECT_EQ(document().survey(), nullptr);
-  ASSERT_EQ(document().notices().size(), 1U);
-  const std::string& line = document().notices().front();
-  EXPECT_THAT(line, AllOf(testing::StartsWith(out_.string() + ": "), HasSubstr((out_ / "gone").string()),
-                          HasSubstr(plan_.tasks.front().files.front())));
-  EXPECT_EQ(line.find('\n'), std::string::npos);
-  fs::create_directories(out_ / "gone");  // there is a folder of that name, and other files in it
-  open({out_});
-  EXPECT_EQ(document().survey(), nullptr);
-  EXPECT_THAT(document().notices(), Contains(HasSubstr("are gone")));
-}
-
 TEST_F(WorkFolders, BesideTheirRawFilesGiveTheirSchoolsWhereverThoseLieNow) {
   move_raw_away();
   open({out_, raw_});
@@ -140,12 +125,8 @@ TEST_F(WorkFolders, BesideTheirRawFilesGiveTheirSchoolsWhereverThoseLieNow) {
   EXPECT_EQ(schools(0), 2U);
 }
 
-TEST_F(WorkFolders, WithoutAPlanAskForTheirRawFiles) {
+TEST_F(WorkFolders, WithoutAPlanTakeTheRecipeOfTheirProducts) {
   fs::remove(out_ / "plan.json");
-  open({out_});
-  EXPECT_EQ(document().survey(), nullptr);
-  ASSERT_EQ(document().notices().size(), 1U);
-  EXPECT_THAT(document().notices().front(), AllOf(HasSubstr(out_.string()), HasSubstr("raw files together with")));
   const std::vector<fs::path> both{raw_, out_};
   const auto named = told_apart(both);
   ASSERT_TRUE(named);

@@ -117,6 +117,24 @@ TEST_F(Files, APictureIsAskedForItsSizeInADialog) {
   EXPECT_FALSE(fs::exists(saved_));
 }
 
+TEST_F(Files, ResultsOpenWithoutTheirRawFilesUntilTheseAreFound) {
+  auto plan = run_easy(out_);
+  ASSERT_TRUE(plan);
+  plan->survey = {(out_ / "gone").string()};
+  std::ofstream(out_ / "plan.json") << plan_text(*plan);
+  drop(out_);
+  EXPECT_EQ(document().staged(), nullptr);
+  EXPECT_EQ(document().state().schools.size(), 2U);
+  raise("survey_map");
+  EXPECT_GT(app_->picture("survey_map")->image().size.width, 0);
+  EXPECT_THAT(idle_text(*app_, "top_slice"), testing::HasSubstr("the raw files are not here"));
+  keep_picture(testing::UnitTest::GetInstance()->current_test_info()->name());
+  app_->dialogs.folder_to_open = [] { return TestSurvey::easy().folder().string(); };
+  key(Qt::Key_O, Qt::ControlModifier | Qt::AltModifier);
+  EXPECT_NE(document().staged(), nullptr);
+  EXPECT_EQ(document().state().schools.size(), 2U);
+}
+
 // Found by its name, changed and used, by hand; what is saved on the way is a recipe that a run reads.
 TEST_F(Files, ARecipeIsChangedInItsDialog) {
   QTimer::singleShot(0, window_.get(), [this] {

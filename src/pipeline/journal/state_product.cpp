@@ -2,6 +2,9 @@
 #include "pipeline/journal/state_product.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "pipeline/journal/continued.h"
@@ -24,7 +27,63 @@ std::vector<SchoolMasks> numbered_as_shown(const Engine& engine, JournalState st
   return schools;
 }
 
+std::string hash_of(const CalibrationParams& calibration) {
+  Recipe recipe;
+  recipe.calibration = calibration;
+  return recipe_hash(recipe);
+}
+
+/// Figures follow the calibration; of a recipe that cannot be read it is taken for the same.
+bool measured_under(const ObservationProduct& product, const CalibrationParams& calibration) {
+  const auto recipe = recipe_from_text(product.recipe_json);
+  return !recipe || hash_of(recipe->calibration) == hash_of(calibration);
+}
+
+/// By school and ping.
+template <class Row>
+std::map<std::pair<std::int64_t, std::int64_t>, const Row*> by_school_and_ping(const std::vector<Row>& rows) {
+  std::map<std::pair<std::int64_t, std::int64_t>, const Row*> found;
+  for (const Row& row : rows) found[{row.school_id, row.ping_index}] = &row;
+  return found;
+}
+
 }  // namespace
+
+ObservationProduct state_product_of_results(const Engine& engine, const JournalState& state,
+                                            const ObservationProduct& measured) {
+  const auto masks = by_school_and_ping(measured.masks);
+  auto rows = by_school_and_ping(measured.school_pings);
+  if (!measured_under(measured, engine.recipe().calibration)) rows.clear();
+  ObservationProduct product = measured;
+  product.input_hash.clear();
+  product.schools.clear();
+  product.school_pings.clear();
+  product.masks.clear();
+  product.diagnostics.insert(product.diagnostics.end(), state.notes.begin(), state.notes.end());
+  product.next_school_id = state.next_number;
+  product.rejected = still_refused(measured.rejected, state, engine.grid());
+  const std::vector<TimeNs> times = datagram_times(engine.survey(), engine.observation());
+  for (std::size_t i = 0; i < times.size(); ++i) product.pings[i].bad = product.pings[i].bad || is_bad(state, times[i]);
+  std::vector<SchoolMasks> schools = numbered_as_shown(engine, state);
+  std::ranges::sort(schools, {}, [](const SchoolMasks& school) { return school.decided.school_id; });
+  for (const SchoolMasks& school : schools) {
+    for (const SchoolMasks::InPing& in_ping : school.pings) {
+      const std::pair key(school.track_id, in_ping.ping_index);
+      const auto mask = masks.find(key);
+      const auto row = rows.find(key);
+      const bool same = mask != masks.end() && mask->second->mask == in_ping.mask;
+      const std::int64_t number = school.decided.school_id;
+      product.masks.push_back(
+          {number, in_ping.ping_index, in_ping.mask, same ? mask->second->fault : std::vector<bool>{}});
+      if (!same || row == rows.end()) continue;
+      product.school_pings.push_back(*row->second);
+      product.school_pings.back().school_id = number;
+    }
+  }
+  summarise_schools(schools, engine.recipe(), product);
+  join_at_reach(product, engine.recipe().merge);
+  return product;
+}
 
 Result<ObservationProduct> state_product(Engine& engine, const JournalState& state, const StateProductOptions& options,
                                          Work& work) {
@@ -68,6 +127,12 @@ std::vector<SchoolMasks> detected_schools(const ObservationProduct& product) {
     }
     schools.push_back(std::move(school));
   }
+  return schools;
+}
+
+std::vector<SchoolMasks> decided_schools(const ObservationProduct& product) {
+  std::vector<SchoolMasks> schools = detected_schools(product);
+  for (std::size_t i = 0; i < schools.size(); ++i) schools[i].decided = product.schools[i];
   return schools;
 }
 

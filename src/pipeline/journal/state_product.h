@@ -30,11 +30,20 @@ struct StateProductOptions {
 [[nodiscard]] Result<ObservationProduct> state_product(Engine& engine, const JournalState& state,
                                                        const StateProductOptions& options, Work& work);
 
+/// The same where no ping can be read: figures that a product has of the same masks, under the same
+/// calibration, stay; others are not known. It says of no
+/// raw files that it is made of them: its key is empty.
+/// measured  the product that the state's schools were found in, see decided_schools()
+[[nodiscard]] ObservationProduct state_product_of_results(const Engine& engine, const JournalState& state,
+                                                          const ObservationProduct& measured);
+
 /// Pings that state_product() would have to measure, rising: their backgrounds must be estimated before.
 [[nodiscard]] std::vector<std::int64_t> pings_to_measure(const Engine& engine, const JournalState& state,
                                                          const MeasuredPings& before);
 
 /// The schools that a product found: where the journal of its observation begins.
 [[nodiscard]] std::vector<SchoolMasks> detected_schools(const ObservationProduct& product);
+/// The same with what humans had decided of them when the product was made.
+[[nodiscard]] std::vector<SchoolMasks> decided_schools(const ObservationProduct& product);
 
 }  // namespace sonar

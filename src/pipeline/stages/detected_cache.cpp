@@ -46,7 +46,7 @@ std::shared_ptr<const EarlierSchools> earlier_found(const std::filesystem::path&
 
 void keep_detected(const std::filesystem::path& file, const ObservationProduct& product) {
   if (file.empty()) return;
-  (void)write_product(product, file, Beside::users_cache);
+  (void)write_product(product, file, Beside::own_folder);
 }
 
 }  // namespace sonar

@@ -12,9 +12,10 @@
 
 namespace sonar {
 
-// What was found in an observation is kept in the user's cache: a journal that asks for it is opened again and again.
+// What was found in an observation is kept beside the journal that asks for it, which is opened again and again.
 
-/// Where an observation's find is kept: one file each, written over when it is stale. Empty without a cache.
+/// Where an observation's find is kept: one file each, written over when it is stale. Empty without a folder.
+/// cache  whose folder lies beside the journal, or the user's
 [[nodiscard]] std::filesystem::path detected_file(const IndexCache& cache, const SurveyFiles& survey,
                                                   const ObservationFiles& observation);
 /// A find made from the same pings in the same way; empty where there is none, or a damaged one.

@@ -86,6 +86,7 @@ void join(Ping& ping, Ping part) {
 }  // namespace
 
 Result<Ping> load_ping(const SurveyFiles& survey, const SurveyPing& first) {
+  if (!survey.raw_gone.empty()) return fail(ErrorCode::not_found, survey.raw_gone);
   auto ping = load_part(survey, first);
   const auto further = survey.further_parts.find(first);
   if (!ping || further == survey.further_parts.end()) return ping;

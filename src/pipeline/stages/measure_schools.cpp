@@ -145,27 +145,6 @@ std::optional<WaterCurrents> currents_of(const Recipe& recipe) {
                        current_noise_mps(recipe.current_profiles, recipe.currents)};
 }
 
-void summarise_schools(const std::vector<SchoolMasks>& schools, const Recipe& recipe, const WaterCurrents* water,
-                       ObservationProduct& product) {
-  for (const SchoolMasks& school : schools) {
-    const std::vector<SchoolPingRow> rows = rows_of(product, school.decided.school_id);
-    if (rows.empty()) continue;
-    SchoolRow row = summarise(rows, recipe.summarise, water);
-    row.observation = product.observation;
-    row.school_id = school.decided.school_id;
-    row.origin = school.decided.origin;
-    row.status = school.decided.status;
-    row.operator_name = school.decided.operator_name;
-    row.decided_utc = school.decided.decided_utc;
-    row.species = school.decided.species;
-    row.comment = school.decided.comment;
-    row.name = school.decided.name;
-    row.continues = school.decided.continues;
-    row.ended_at_reach = school.decided.ended_at_reach;
-    product.schools.push_back(std::move(row));
-  }
-}
-
 using MeasuredPing = std::pair<std::int64_t, std::vector<InPingRef>>;
 
 std::vector<MeasuredPing> by_ping(const std::vector<SchoolMasks>& schools) {
@@ -196,6 +175,29 @@ void take_masks(std::vector<SchoolMasks>& schools, Faults& faults, ObservationPr
 }
 
 }  // namespace
+
+void summarise_schools(const std::vector<SchoolMasks>& schools, const Recipe& recipe, ObservationProduct& product) {
+  const auto currents = currents_of(recipe);
+  const WaterCurrents* water = currents ? &*currents : nullptr;
+  move_schools(recipe, water, product);
+  for (const SchoolMasks& school : schools) {
+    const std::vector<SchoolPingRow> rows = rows_of(product, school.decided.school_id);
+    if (rows.empty()) continue;
+    SchoolRow row = summarise(rows, recipe.summarise, water);
+    row.observation = product.observation;
+    row.school_id = school.decided.school_id;
+    row.origin = school.decided.origin;
+    row.status = school.decided.status;
+    row.operator_name = school.decided.operator_name;
+    row.decided_utc = school.decided.decided_utc;
+    row.species = school.decided.species;
+    row.comment = school.decided.comment;
+    row.name = school.decided.name;
+    row.continues = school.decided.continues;
+    row.ended_at_reach = school.decided.ended_at_reach;
+    product.schools.push_back(std::move(row));
+  }
+}
 
 std::string ended_at_reach(const SchoolMasks& school) {
   if (school.pings.empty()) return {};
@@ -279,10 +281,7 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
   }
   product.grid = grid_record(engine.observation(), engine.recipe().calibration);
   product.school_pings = corrected_rows(rows, engine.recipe().measure);
-  const auto currents = currents_of(engine.recipe());
-  const WaterCurrents* water = currents ? &*currents : nullptr;
-  move_schools(engine.recipe(), water, product);
-  summarise_schools(schools, engine.recipe(), water, product);
+  summarise_schools(schools, engine.recipe(), product);
   take_masks(schools, faults, product);
   return {};
 }

@@ -43,6 +43,10 @@ struct SchoolMasks {
 /// Numbers schools 1.. by (first ping, channel, sample) of their first voxel; those without pings are left out.
 [[nodiscard]] std::vector<SchoolMasks> numbered(std::vector<SchoolMasks> schools, const BeamGrid& grid);
 
+/// Adds the row of each school that has rows of pings in the product, after these were told how the school moved. Rows of one
+/// school stand together.
+void summarise_schools(const std::vector<SchoolMasks>& schools, const Recipe& recipe, ObservationProduct& product);
+
 /// Measures every ping of numbered schools and summarises. Rows and masks are put into the product, sorted.
 /// before  of the same engine, or of one that keeps keys of its pings; null = everything is measured
 /// errors  cancelled. A ping that cannot be read any more loses its masks; it is noted and marked bad.

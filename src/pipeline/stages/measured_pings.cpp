@@ -111,7 +111,7 @@ void keep_measured(const std::filesystem::path& file, const std::string& key, Me
     writer(ping.second);
   }
   const std::array blocks{writer.take()};
-  SealedFile::store(file, versioned(key), blocks);
+  SealedFile::store(file, versioned(key), blocks, Beside::own_folder);
   measured.changed = false;
 }
 

@@ -29,9 +29,10 @@ struct MeasuredPings {
   bool changed = false;  ///< since they were read from a file, or kept in one
 };
 
-// A survey that is opened again is not measured again: what was measured last is kept in the user's cache.
+// A survey that is opened again is not measured again: what was measured last is kept beside its journal.
 
-/// Where an observation's is kept: one file each, written over when it is stale. Empty without a cache.
+/// Where an observation's is kept: one file each, written over when it is stale. Empty without a folder.
+/// cache  whose folder lies beside the journal, or the user's
 [[nodiscard]] std::filesystem::path measured_file(const IndexCache& cache, const SurveyFiles& survey,
                                                   const ObservationFiles& observation);
 /// Nothing where there is no such file, it was made of other pings or in another way, or it is damaged.

@@ -128,6 +128,7 @@ struct SurveyFiles {
   std::vector<ObservationFiles> observations;  ///< MS70 first, then each other sounder, each in time order
   Diagnostics diagnostics;                     ///< duplicate files, repeated pings, unreadable files
   std::shared_ptr<BlockPool> blocks = std::make_shared<BlockPool>();
+  std::string raw_gone{};  ///< why no ping can be read, its raw files being elsewhere; empty = they are there
 
   /// Where the other channels of a ping lie whose channels are spread over several places (two files that each hold
   /// some, say); by the first part, which is the one with most channels.

@@ -60,8 +60,8 @@ Result<std::vector<fs::path>> raw_of(const Plan& plan, const fs::path& out) {
   if (!there && there.error().code != ErrorCode::not_found) return pass_on(there);
   return fail(
       ErrorCode::not_found,
-      fmt::format("the raw files of these results are gone: expected {} ({}); open the folder where they lie now "
-                  "together with this one",
+      fmt::format("the raw files are not here: expected {} ({}); open the folder where they lie now together with "
+                  "this one",
                   fmt::join(plan.survey, ", "), some_of(expected)),
       {out.string()});
 }
@@ -75,27 +75,40 @@ std::optional<Recipe> recipe_of_products(const fs::path& out) {
   return recipe ? std::optional(std::move(*recipe)) : std::nullopt;
 }
 
+void add_once(std::vector<fs::path>& list, fs::path path) {
+  if (std::find(list.begin(), list.end(), path) == list.end()) list.push_back(std::move(path));
+}
+
+bool has_products(const fs::path& out) {
+  const auto files = product_files(out);
+  return files && !files->empty();
+}
+
 /// Adds a work folder's survey and recipe.
 /// stands_alone  no raw files are named beside it
 Result<void> take_work_folder(const fs::path& out, bool stands_alone, NamedToOpen& named) {
   std::optional<Recipe> recipe;
+  Result<std::vector<fs::path>> raw;
   if (has_plan(out)) {
     auto plan = read_plan(out / kPlan);
     if (!plan) return pass_on(plan);
-    auto raw = stands_alone ? raw_of(*plan, out) : Result<std::vector<fs::path>>{};
-    if (!raw) return pass_on(raw);
-    for (fs::path& one : *raw) {
-      if (std::find(named.raw.begin(), named.raw.end(), one) == named.raw.end()) named.raw.push_back(std::move(one));
-    }
+    if (stands_alone) raw = raw_of(*plan, out);
+    if (!raw) named.expected.insert(named.expected.end(), plan->survey.begin(), plan->survey.end());
+    if (!plan->session.empty()) add_once(named.sessions, plan->session);
     recipe = std::move(plan->recipe);
-  } else if (stands_alone) {
-    return fail(
-        ErrorCode::usage,
-        "these results do not say where their raw files lie (there is no plan.json); open the folder of the raw "
-        "files together with this one",
-        {out.string()});
   } else {
     recipe = recipe_of_products(out);
+    if (stands_alone) {
+      raw = fail(ErrorCode::not_found,
+                 "the raw files are not here: the results do not say where they lie (there is no plan.json); open the "
+                 "folder of the raw files together with this one",
+                 {out.string()});
+    }
+  }
+  if (!raw && (raw.error().code != ErrorCode::not_found || !has_products(out))) return pass_on(raw);
+  if (!raw && named.raw_gone.empty()) named.raw_gone = to_line(raw.error());
+  if (raw) {
+    for (fs::path& one : *raw) add_once(named.raw, std::move(one));
   }
   if (!named.recipe) named.recipe = std::move(recipe);
   return {};
@@ -137,6 +150,8 @@ Result<NamedToOpen> told_apart(std::span<const fs::path> paths) {
   for (const fs::path& out : named.work_folders) {
     if (auto taken = take_work_folder(out, stand_alone, named); !taken) return pass_on(taken);
   }
+  // Of some of the results there are pings, of others there are not: that is no one survey.
+  if (!named.raw.empty() && !named.raw_gone.empty()) return fail(ErrorCode::not_found, named.raw_gone);
   return named;
 }
 

@@ -20,10 +20,14 @@ struct NamedToOpen {
   std::vector<std::filesystem::path> raw;           ///< files, and folders of them
   std::vector<std::filesystem::path> work_folders;  ///< results of runs on them
   std::optional<Recipe> recipe;                     ///< of the first run whose recipe is known
+  /// Why no raw files are known that the results are of, in a line: what products hold is all there is. Empty = `raw` are.
+  std::string raw_gone{};
+  std::vector<std::filesystem::path> expected{};  ///< where those lay; empty = not told
+  std::vector<std::filesystem::path> sessions{};  ///< journals, or folders of them, whose decisions the runs were given
 };
 
 /// A work folder stands for the raw files that its plan names, unless others are named beside it.
-/// errors  not_found: those are gone; usage: it has no plan, and nothing is named beside it; as read_plan()
+/// errors  not_found: those are gone, and those of another folder are there, or there are no products; as read_plan()
 [[nodiscard]] Result<NamedToOpen> told_apart(std::span<const std::filesystem::path> paths);
 
 /// Where paths lead, links followed: one name for one place.

@@ -69,7 +69,7 @@ TimelinePanel panel_of(const Drawn& drawn, const EchogramSoFar& of, const Echogr
   panel.observation.label = drawn.product->observation + ", " + text;
   panel.style.scale = wish.display.scale;
   panel.style.by_school = true;
-  panel.style.raw_there = true;
+  panel.style.raw_there = wish.survey->raw_gone.empty();
   panel.style.filtered = of.name.shown.filtered;
   panel.style.of = std::move(text);
   panel.style.outlined = true;

@@ -140,6 +140,8 @@ LivePicture::Build EchogramModel::build(const PictureLook& look) {
 
 std::string EchogramModel::incomplete() const {
   const auto of = name();
+  const SurveyFiles* survey = workspace_.document.survey();
+  if (survey != nullptr && !survey->raw_gone.empty()) return {};
   return !of || echograms_->complete(*of) ? std::string() : "the echogram is still being read";
 }
 

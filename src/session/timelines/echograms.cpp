@@ -248,7 +248,7 @@ std::shared_ptr<Echograms::Filling> Echograms::begun(const EchogramName& name) c
 
 void Echograms::go_on() {
   // An act comes first: its end tells a new state.
-  if (reading_ || document_.busy() || document_.survey() == nullptr) return;
+  if (reading_ || document_.busy() || document_.survey() == nullptr || !document_.survey()->raw_gone.empty()) return;
   std::optional<EchogramName> next;
   std::size_t best = 0;
   for (const auto& [asker, names] : wanted_) {

@@ -144,6 +144,8 @@ LivePicture::Build TimelineModel::build(const PictureLook& look) {
 }
 
 std::string TimelineModel::incomplete() const {
+  const SurveyFiles* survey = workspace_.document.survey();
+  if (survey != nullptr && !survey->raw_gone.empty()) return {};
   const auto all = observations();
   const bool complete =
       std::all_of(all.begin(), all.end(), [this](std::size_t index) { return echograms_->complete(index); });

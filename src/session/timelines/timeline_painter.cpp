@@ -85,7 +85,7 @@ Result<TimelinePainter::Painted> TimelinePainter::paint(const TimelineWish& wish
   style.value = EchogramValue::maximum;
   style.scale = wish.sv;
   style.by_school = true;
-  style.raw_there = true;
+  style.raw_there = survey_->raw_gone.empty();
   style.brief = size.height < kTitleFrom_em * theme.text_px || size.width < kColoursFrom_em * theme.text_px;
   style.shown = wish.shown;
   auto frame = timeline(observations, style, size, theme);

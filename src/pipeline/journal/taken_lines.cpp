@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/journal/taken_lines.h"
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+#include "io/atomic_file.h"
+#include "pipeline/journal/journals.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What tells a choice from others, whatever its number.
+auto identity_of(const JournalLine& line) {
+  return std::tuple(line.decided, line.ping_time, line.operator_name, line.command, line.args.dump());
+}
+
+Result<fs::path> next_journal(const fs::path& folder) {
+  for (std::int64_t number = 1; number <= kMostJournals; ++number) {
+    fs::path path = journal_name(folder, number);
+    std::error_code absent;
+    if (!fs::exists(fs::symlink_status(path, absent))) return path;
+  }
+  return fail(ErrorCode::io, "has no room for one more journal", {folder.string()});
+}
+
+/// The whole file at once: half of what somebody decided is nothing to work on.
+std::string text_of(const Journal& head, std::vector<JournalLine> lines) {
+  std::string text = journal_head_text(head) + "\n";
+  std::int64_t n = 0;
+  for (JournalLine& line : lines) {
+    line.n = ++n;
+    line.step = 1;
+    text += journal_text(line) + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+Result<TakenLines> take_lines(const JournalPlace& place, const fs::path& from) {
+  const auto session = read_session(from);
+  if (!session) return pass_on(session);
+  std::set<decltype(identity_of(JournalLine{}))> known;
+  for (const JournalLine& line : place.lines) known.insert(identity_of(line));
+  std::vector<JournalLine> lines = effective_lines(session->lines);
+  std::erase_if(lines, [&](const JournalLine& line) { return known.contains(identity_of(line)); });
+  TakenLines taken;
+  if (lines.empty()) return taken;
+  std::set<std::string> operators;
+  for (const JournalLine& line : lines) operators.insert(line.operator_name);
+  auto path = next_journal(place.folders.back());
+  if (!path) return pass_on(path);
+  const std::string text = text_of(place.journal, lines);
+  if (auto written = write_file(*path, text, Beside::own_folder); !written) return pass_on(written);
+  return TakenLines{lines.size(), std::move(*path), {operators.begin(), operators.end()}};
+}
+
+}  // namespace sonar

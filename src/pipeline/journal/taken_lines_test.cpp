@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/journal/taken_lines.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "base/test_paths.h"
+#include "pipeline/journal/journals.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Taken : public testing::Test {
+ protected:
+  void SetUp() override { fs::remove_all(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] JournalPlace placed() const {
+    const std::array folders{folder_ / "work"};
+    auto place = place_journal(folders, {}, "bob");
+    EXPECT_TRUE(place);
+    return place ? *place : JournalPlace{};
+  }
+  static JournalLine line(std::int64_t n, TimeNs decided, const char* command, const char* who = "ann") {
+    JournalLine line;
+    line.n = n;
+    line.decided = decided;
+    line.operator_name = who;
+    line.command = command;
+    line.ping_time = 7;
+    return line;
+  }
+  void write(const fs::path& path, const JournalLine& line) const {
+    fs::create_directories(path.parent_path());
+    ASSERT_TRUE(append_journal(path.string(), {}, line));
+  }
+  fs::path folder_ = test::scratch_path("-taken");
+  fs::path theirs_ = folder_ / "theirs" / "chosen.jsonl";
+};
+
+TEST_F(Taken, LinesThatHoldComeWithTheirPersonAndTimeAsOneStep) {
+  write(theirs_, line(1, 100, "delete"));
+  write(theirs_, line(2, 200, "brush"));
+  write(theirs_, line(3, 300, "merge"));
+  JournalLine undo = line(4, 400, "undo");
+  undo.args = {{"target", 2}};
+  write(theirs_, undo);
+  const auto taken = take_lines(placed(), theirs_);
+  ASSERT_TRUE(taken) << to_line(taken.error());
+  EXPECT_EQ(taken->lines, 2U) << "what was undone is not taken";
+  EXPECT_EQ(taken->operators, std::vector<std::string>{"ann"});
+  const JournalPlace place = placed();
+  ASSERT_EQ(place.lines.size(), 2U);
+  EXPECT_EQ(place.lines[0].command, "delete");
+  EXPECT_EQ(place.lines[1].command, "merge");
+  EXPECT_EQ(place.lines[1].decided, 300);
+  EXPECT_EQ(place.lines[1].operator_name, "ann");
+  EXPECT_EQ(place.lines[0].step, place.lines[0].n);
+  EXPECT_EQ(place.lines[1].step, place.lines[0].n);
+}
+
+TEST_F(Taken, WhatIsThereAlreadyIsNotTakenAgain) {
+  write(theirs_, line(1, 100, "delete"));
+  ASSERT_EQ(take_lines(placed(), theirs_)->lines, 1U);
+  EXPECT_EQ(take_lines(placed(), theirs_)->lines, 0U);
+  write(theirs_, line(2, 200, "delete"));  // the same act again, at another time
+  EXPECT_EQ(take_lines(placed(), theirs_)->lines, 1U);
+  EXPECT_EQ(placed().lines.size(), 2U);
+}
+
+TEST_F(Taken, JournalsThatAreThereStayAsTheyAre) {
+  const fs::path ours = folder_ / "work" / "session.jsonl";
+  write(ours, line(1, 50, "brush", "bob"));
+  write(theirs_, line(1, 100, "delete"));
+  const auto taken = take_lines(placed(), theirs_.parent_path() / "chosen.jsonl");
+  ASSERT_TRUE(taken);
+  EXPECT_EQ(taken->into, folder_ / "work" / "session-2.jsonl");
+  const auto still = read_journal(ours.string());
+  ASSERT_TRUE(still);
+  EXPECT_EQ(still->lines.size(), 1U);
+  const JournalPlace place = placed();
+  EXPECT_EQ(place.lines.size(), 2U);
+  EXPECT_EQ(place.path, ours) << "bob goes on with his own";
+}
+
+TEST_F(Taken, AJournalThatIsGoneIsSaid) {
+  EXPECT_EQ(take_lines(placed(), folder_ / "none.jsonl").error().code, ErrorCode::not_found);
+  EXPECT_TRUE(placed().lines.empty());
+}
+
+}  // namespace
+}  // namespace sonar
