@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "base/time.h"
@@ -121,6 +122,22 @@ std::vector<PixelPoint> places_of_refused(const VolumeFigure& figure, const Volu
   return out;
 }
 
+/// Of the schools in the picture: neither legend nor scale bar lies on them.
+std::vector<ConvexOutline> outlines_of_schools(const VolumeFigure& figure, const VolumePlace& place,
+                                               const VolumeView& view) {
+  const CameraBasis eye = basis(view.camera, view.size);
+  std::vector<ConvexOutline> out;
+  for (const MaskLayer& layer : figure.masks) {
+    const auto school = layer.mask ? school_place(figure.sector(), *layer.mask) : std::nullopt;
+    if (!school) continue;
+    out.push_back(school_outline(*school, eye));
+    for (PixelPoint& p : out.back()) {
+      p = {place.rect.x + p.x / place.scale, place.rect.y + p.y / place.scale};
+    }
+  }
+  return out;
+}
+
 void add_refused(FrameDescription& frame, const VolumeFigure& figure, const VolumePlace& place,
                  const VolumeView& view) {
   const std::vector<PixelPoint> places = places_of_refused(figure, place, view);
@@ -129,32 +146,39 @@ void add_refused(FrameDescription& frame, const VolumeFigure& figure, const Volu
   }
 }
 
-/// Where the scale bar stands: in the first corner that the legend leaves free.
-PixelRect bar_place(const DistanceBar& bar, const PixelRect& inside, const PixelRect& legend, const Theme& theme) {
+/// The scale bar in the lower right corner, else along the edges; none where there is no room for it.
+/// returns  what it covers
+std::optional<PixelRect> add_scale_bar(FrameDescription& frame, const VolumePlace& place, const Camera& camera,
+                                       std::span<const ConvexOutline> kept_clear) {
+  const Theme& theme = place.theme;
+  const PixelSize size{static_cast<int>(place.rect.width), static_cast<int>(place.rect.height)};
+  const auto bar = distance_bar(camera, size, std::min(0.25 * size.width, 14.0 * theme.text_px));
+  if (!bar) return std::nullopt;
   const double gap = 0.6 * theme.text_px;
-  const PixelRect low = distance_bar_place(bar, inside.x + inside.width - gap, inside.y + inside.height - gap, theme);
-  if (low.x > legend.x + legend.width) return low;
-  PixelRect above = low;
-  above.y = std::min(low.y, legend.y - low.height);
-  return above;
+  const PixelRect inner{place.rect.x + gap, place.rect.y + gap, place.rect.width - 2.0 * gap,
+                        place.rect.height - 2.0 * gap};
+  const PixelRect extent = distance_bar_place(*bar, 0.0, 0.0, theme);
+  const auto found = free_place(inner, extent.width, extent.height, Corner::lower_right, kept_clear);
+  if (found) add_distance_bar(frame, *bar, *found, theme);
+  return found;
 }
 
 /// Labels of the surroundings and the scale bar, which keep off the legend and off each other.
+/// kept_clear  what the scale bar does not lie on
 void add_labels(FrameDescription& frame, const VolumeFigure& figure, const PictureOptions& options,
-                const VolumePlace& place, const VolumeView& view, const std::vector<LegendRow>& legend) {
+                const VolumePlace& place, const VolumeView& view, const PixelRect& legend,
+                std::vector<ConvexOutline> kept_clear) {
   const Theme& theme = place.theme;
   const PixelSize size{static_cast<int>(place.rect.width), static_cast<int>(place.rect.height)};
-  const PixelRect inside{0.0, 0.0, place.rect.width, place.rect.height};
   FrameDescription labels{size, theme.background, {}, {}};
-  std::vector<PixelRect> taken{legend_place(legend, inside, theme)};
-  const auto bar = distance_bar(view.camera, size, std::min(0.25 * size.width, 14.0 * theme.text_px));
-  if (bar) {
-    taken.push_back(bar_place(*bar, inside, taken.front(), theme));
-    PixelRect at = taken.back();
-    at.x += place.rect.x;
-    at.y += place.rect.y;
-    add_distance_bar(frame, *bar, at, theme);
-  }
+  const auto within = [&](PixelRect rect) {
+    rect.x -= place.rect.x;
+    rect.y -= place.rect.y;
+    return rect;
+  };
+  std::vector<PixelRect> taken{within(legend)};
+  kept_clear.push_back(outline_of(legend));
+  if (const auto bar = add_scale_bar(frame, place, view.camera, kept_clear)) taken.push_back(within(*bar));
   const double reach = mark_reach_px(theme);
   for (const PixelPoint& mark : places_of_refused(figure, place, view)) {
     if (std::isnan(mark.x)) continue;
@@ -270,18 +294,20 @@ FrameDescription volume_figure_frame(const VolumeFigure& figure, const PictureOp
   const Theme& theme = place.theme;
   FrameDescription frame{options.size, theme.background, figure.title, {}};
   frame.items.emplace_back(ImageItem{place.rect, std::make_shared<const Image>(between(context, rays, work)), false});
-  const std::vector<LegendRow> legend = volume_legend(figure, options, place.rect, theme);
-  if (options.volume.context) add_labels(frame, figure, options, place, view, legend);
+  const std::vector<ConvexOutline> schools = outlines_of_schools(figure, place, view);
+  const PlacedLegend legend = placed_legend(figure, options, place.rect, theme, schools);
+  if (options.volume.context) add_labels(frame, figure, options, place, view, legend.place, schools);
   add_refused(frame, figure, place, view);
-  add_volume_legend(frame, legend, place.rect, theme);
+  add_volume_legend(frame, legend, theme);
   if (const std::string words = nothing_shown(figure, options, view, rays); !words.empty()) {
     const PixelPoint middle{place.rect.x + 0.5 * place.rect.width, place.rect.y + 0.5 * place.rect.height};
     frame.items.emplace_back(
         TextItem{middle, words, theme.text_px, theme.text, TextAnchor::centre, 0.0, false, theme.halo});
   }
   add_colour_bars(frame, figure, options, place, view.masks.data_too);
-  add_title(frame, place.layout, theme, {figure.title_line, view_line(figure, options, place, view.masks.data_too)},
-            time_text(figure.navigation.time));
+  std::string line = view_line(figure, options, place, view.masks.data_too);
+  if (legend.left_out) line += "; no room for the legend";
+  add_title(frame, place.layout, theme, {figure.title_line, line}, time_text(figure.navigation.time));
   return frame;
 }
 

@@ -60,8 +60,18 @@ std::vector<LegendRow> of_schools(const VolumeFigure& figure, const PictureOptio
     rows.push_back({area, theme.text, core});
     rows.push_back({area, with_alpha(theme.text, static_cast<int>(255.0F * opacity)), "fuzzy area"});
   }
-  for (const auto& [colour, name] : figure.legend) rows.push_back({area, colour, name});
+  for (const auto& [colour, name] : figure.legend) rows.push_back({area, colour, name, true});
   return rows;
+}
+
+/// What the rows cover, from the origin on.
+PixelRect extent_of(const std::vector<LegendRow>& rows, const Theme& theme) {
+  const double line = line_of(theme);
+  double width = 0.0;
+  for (const LegendRow& row : rows) {
+    width = std::max(width, 2.0 * line + LabelRoom::box_of(words_item(row, {}, theme)).width);
+  }
+  return {0.0, 0.0, width, rows.empty() ? 0.0 : line * (static_cast<double>(rows.size()) + 0.5)};
 }
 
 }  // namespace
@@ -71,34 +81,37 @@ std::vector<LegendRow> volume_legend(const VolumeFigure& figure, const PictureOp
   std::vector<LegendRow> rows;
   add_surroundings(rows, figure, options, theme);
   add_trails(rows, figure, options, theme);
-  if (!options.display.masks || figure.legend.empty()) return rows;
-  std::vector<LegendRow> schools = of_schools(figure, options, theme);
-  const double height = line_of(theme) * static_cast<double>(rows.size() + schools.size());
-  if (figure.legend.size() > kMostSchools || height > kMostOfHeight * place.height) {
-    if (figure.legend.size() < schools.size()) schools.resize(schools.size() - figure.legend.size());
+  if (options.display.masks && !figure.legend.empty()) {
+    std::vector<LegendRow> schools = of_schools(figure, options, theme);
+    const double height = line_of(theme) * static_cast<double>(rows.size() + schools.size());
+    if (figure.legend.size() > kMostSchools || height > kMostOfHeight * place.height) {
+      schools.resize(schools.size() - figure.legend.size());
+    }
+    rows.insert(rows.end(), schools.begin(), schools.end());
   }
-  rows.insert(rows.end(), schools.begin(), schools.end());
+  for (LegendRow& row : rows) row.words = elided(row.words, theme.text_px, place.width - 3.0 * line_of(theme));
   return rows;
 }
 
-PixelRect legend_place(const std::vector<LegendRow>& rows, const PixelRect& place, const Theme& theme) {
-  const double line = line_of(theme);
-  const double height = line * static_cast<double>(rows.size());
-  double width = 0.0;
-  for (const LegendRow& row : rows) {
-    width = std::max(width, 2.0 * line + LabelRoom::box_of(words_item(row, {}, theme)).width);
+PlacedLegend placed_legend(const VolumeFigure& figure, const PictureOptions& options, const PixelRect& place,
+                           const Theme& theme, std::span<const ConvexOutline> kept_clear) {
+  const std::vector<LegendRow> all = volume_legend(figure, options, place, theme);
+  std::vector<LegendRow> fewer = all;
+  std::erase_if(fewer, [](const LegendRow& row) { return row.one_school; });
+  for (const auto& rows : {all, fewer}) {
+    const PixelRect extent = extent_of(rows, theme);
+    const auto found = free_place(place, extent.width, extent.height, Corner::lower_left, kept_clear);
+    if (found) return {rows, *found, false};
   }
-  if (rows.empty()) return {place.x, place.y + place.height, 0.0, 0.0};
-  return {place.x, place.y + place.height - height - 0.5 * line, width, height + 0.5 * line};
+  return {{}, {place.x, place.y + place.height, 0.0, 0.0}, true};
 }
 
-void add_volume_legend(FrameDescription& frame, const std::vector<LegendRow>& rows, const PixelRect& place,
-                       const Theme& theme) {
+void add_volume_legend(FrameDescription& frame, const PlacedLegend& legend, const Theme& theme) {
   const double em = theme.text_px;
   const double line = line_of(theme);
-  const double x = place.x + line;
-  double y = place.y + place.height - line * static_cast<double>(rows.size());
-  for (const LegendRow& row : rows) {
+  const double x = legend.place.x + line;
+  double y = legend.place.y + 0.5 * line;
+  for (const LegendRow& row : legend.rows) {
     switch (row.sign) {
       case LegendRow::Sign::area:
         frame.items.emplace_back(

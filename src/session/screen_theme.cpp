@@ -6,19 +6,18 @@
 
 namespace sonar {
 
-double least_text_px(PixelSize units) { return std::clamp(units.height / 20.0, 10.5, 12.0); }
-
 Theme scaled(Theme theme, double factor) {
   theme.text_px *= factor;
   theme.title_px *= factor;
   theme.line_px *= factor;
+  theme.least_text_px *= static_cast<float>(factor);
   return theme;
 }
 
 Theme screen_theme(PixelSize pixels, double scale, bool dark) {
   const PixelSize units{static_cast<int>(std::lround(pixels.width / scale)),
                         static_cast<int>(std::lround(pixels.height / scale))};
-  return scaled(with_text(dark ? dark_theme(units) : light_theme(units), least_text_px(units)), scale);
+  return scaled(with_text(dark ? dark_theme(units) : light_theme(units), kLeastText_px), scale);
 }
 
 Theme dock_theme(PixelSize pixels, double scale, bool dark) {

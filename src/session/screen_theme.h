@@ -6,9 +6,9 @@
 
 namespace sonar {
 
-/// Of what is shown on a screen: 9 pt at 96 dots per inch, below which few read it; flat views have room for a little less.
-/// units  extent in the window's units
-[[nodiscard]] double least_text_px(PixelSize units);
+/// Of what is shown on a screen, in the window's units: 9 pt at 96 dots per inch, below which few read it. Views that are
+/// too flat for their words have fewer of them.
+inline constexpr double kLeastText_px = 12.0;
 
 /// Colours and sizes of a picture on the screen: text and lines as large as its extent in the window's units asks for, in
 /// its own pixels.

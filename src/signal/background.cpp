@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 
@@ -67,17 +68,6 @@ std::int16_t median_level(std::span<std::int16_t> known) {
   const std::int16_t high = known[known.size() / 2];
   if (known.size() % 2 == 1) return high;
   return count_from_linear(0.5 * (linear_from_count(high) + linear_from_count(known[known.size() / 2 - 1])));
-}
-
-/// Relative standard deviation of a level of several pings that holds noise alone: that of an exponential's quantile, and
-/// of a median over pings.
-double level_spread(std::size_t pings, int samples, const BackgroundParams& params) {
-  const double p = params.quantile;
-  const double data = std::max(1.0, params.far_fraction * samples / kFarBlocks);
-  const double single = std::sqrt(p / (1.0 - p) / data) / -std::log1p(-p);
-  const double over_pings =
-      pings > 2 ? std::numbers::pi / 2.0 / static_cast<double>(pings) : 1.0 / static_cast<double>(pings);
-  return single * std::sqrt(over_pings);
 }
 
 /// Sv of each block that half of a fan's beams lie below, and their gain there; 0 where none is known.
@@ -214,8 +204,28 @@ Array3<double> block_gain(View3<const std::int16_t> table, const BackgroundParam
   return gain;
 }
 
-std::vector<double> noise_power_db(View3<const std::int16_t> levels, std::size_t pings, View3<const double> gain,
-                                   int samples, const BackgroundParams& params) {
+double level_spread(View3<const std::int16_t> own, View3<const std::int16_t> levels, std::size_t pings, int samples,
+                    const BackgroundParams& params) {
+  SONAR_CHECK(own.shape() == levels.shape() || pings < 3);
+  if (pings < 3) {
+    const double p = params.quantile;
+    const double data = std::max(1.0, params.far_fraction * samples / kFarBlocks);
+    return std::sqrt(p / (1.0 - p) / data) / -std::log1p(-p) /
+           std::sqrt(static_cast<double>(std::max<std::size_t>(1, pings)));
+  }
+  std::vector<int> apart;
+  for (std::size_t i = 0; i < levels.all().size(); ++i) {
+    if (own.all()[i] != kNoData && levels.all()[i] != kNoData)
+      apart.push_back(std::abs(own.all()[i] - levels.all()[i]));
+  }
+  if (apart.empty()) return 0.0;
+  const double single =
+      kStandardOverMiddleDeviation * (linear_from_db(db_from_counts(middle_of(std::move(apart)))) - 1.0);
+  return single * std::sqrt(std::numbers::pi / 2.0 / static_cast<double>(pings));  // of a median
+}
+
+std::vector<double> noise_power_db(View3<const std::int16_t> levels, double spread, View3<const double> gain,
+                                   const BackgroundParams& params) {
   std::vector<double> level_db;
   if (params.method == BackgroundMethod::de_robertis) {
     for (int row = 0; row < static_cast<int>(levels.shape().rows()); ++row) {
@@ -225,7 +235,6 @@ std::vector<double> noise_power_db(View3<const std::int16_t> levels, std::size_t
     return level_db;
   }
   SONAR_CHECK(gain.shape() == levels.shape() && levels.shape().samples == kFarBlocks);
-  const double spread = level_spread(pings, samples, params);
   for (int fan = 0; fan < levels.shape().fans; ++fan) {
     const FanLevels of_fan = fan_levels(levels, gain, fan);
     const double water_sv = fan_water_sv(of_fan);

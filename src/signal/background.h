@@ -92,12 +92,18 @@ void keep_quieter(View3<const std::int16_t> own, double quiet_db, View3<std::int
 /// out     [fan][beam][block] as background_levels() makes them with low_quantile; 0 where the table holds kNoData
 [[nodiscard]] Array3<double> block_gain(View3<const std::int16_t> table, const BackgroundParams& params);
 
+/// Relative standard deviation of a level over several pings that holds noise alone, by how far the levels of one of them lie
+/// from those of all: most blocks hold little else, and it is in there how far along the beam neighbouring samples are alike. Of one
+/// or two pings, what independent samples would have.
+[[nodiscard]] double level_spread(View3<const std::int16_t> own, View3<const std::int16_t> levels, std::size_t pings,
+                                  int samples, const BackgroundParams& params);
+
 /// Noise power of each row, dB re 1 W. low_quantile: what is left of its levels when the water is taken off that its fan
 /// hears (noise_beside_water.h); de_robertis: the weakest level, not above maximum_db.
-/// in      levels of several pings; gain = block_gain(), not asked for with de_robertis; samples of a beam
+/// in      levels of several pings and their level_spread(); gain = block_gain(); both not asked for with de_robertis
 /// out     [row]; NaN where no level is known
-[[nodiscard]] std::vector<double> noise_power_db(View3<const std::int16_t> levels, std::size_t pings,
-                                                 View3<const double> gain, int samples, const BackgroundParams& params);
+[[nodiscard]] std::vector<double> noise_power_db(View3<const std::int16_t> levels, double spread,
+                                                 View3<const double> gain, const BackgroundParams& params);
 
 /// Sv of the background at each sample: its power plus what the sonar equation adds there.
 /// in      level_db of the row, table = sv_table() of the row

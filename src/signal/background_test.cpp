@@ -51,7 +51,9 @@ std::vector<double> noise_of(std::span<const Array3<std::int16_t>> pings, const 
   for (const auto& of_ping : levels) borrowed.push_back(&of_ping);
   const Array3<double> gain = block_gain(table_of(flags.shape()).view(), params);
   const Array3<std::int16_t> over_pings = levels_over_pings(borrowed, params);
-  return noise_power_db(over_pings.view(), pings.size(), gain.view(), flags.shape().samples, params);
+  const double spread = level_spread(std::as_const(levels.front()).view(), over_pings.view(), pings.size(),
+                                     flags.shape().samples, params);
+  return noise_power_db(over_pings.view(), spread, gain.view(), params);
 }
 
 /// From one ping alone.
@@ -192,8 +194,8 @@ TEST(background, a_ping_is_no_louder_than_itself) {
   }
   Array3<std::int16_t> unknown({1, 1, kFarBlocks}, kNoData);
   keep_quieter(std::as_const(pings[10]).view(), 6.0, Array3<std::int16_t>(pings[10].shape(), kNoData).view());
-  EXPECT_TRUE(std::isnan(
-      noise_power_db(std::as_const(unknown).view(), 1, Array3<double>(unknown.shape()).view(), 1320, {})[0]));
+  EXPECT_TRUE(
+      std::isnan(noise_power_db(std::as_const(unknown).view(), 0.1, Array3<double>(unknown.shape()).view(), {})[0]));
 }
 
 TEST(background, median_over_pings_by_hand) {

@@ -73,7 +73,7 @@ struct LayoutNeeds {
   int foot_lines = 0;          ///< of a key below the plot and its axis
 };
 
-/// Where things go; margins follow the theme's text.
+/// Where things go; margins follow the theme's text. Where little height is left to the plot the title has fewer lines.
 struct Layout {
   PixelRect title;
   PixelRect plot;
@@ -86,7 +86,7 @@ struct Layout {
 [[nodiscard]] double map_top_px(const Theme& theme);
 
 /// First line large, the others muted below it; the right-hand text (may be empty) stands at the right of the first.
-/// Nothing leaves the picture: a first line without room becomes smaller, then lines are shortened; SYNTHETIC is never
+/// Lines that the title's place has no room for are left out. Nothing leaves the picture: a first line without room becomes smaller, then lines are shortened; SYNTHETIC is never
 /// shortened away.
 void add_title(FrameDescription& frame, const Layout& layout, const Theme& theme, const std::vector<std::string>& lines,
                const std::string& right = {});

@@ -140,10 +140,11 @@ TEST(ColourBar, DepthReadsDownwards) {
   }
 }
 
-std::vector<TextItem> title_in(PixelSize size, const std::vector<std::string>& lines, const std::string& right) {
+std::vector<TextItem> title_in(PixelSize size, const std::vector<std::string>& lines, const std::string& right,
+                               double least_text_px = 0.0) {
   FrameDescription frame;
   frame.size = size;
-  const Theme theme = light_theme(size);
+  const Theme theme = with_text(light_theme(size), least_text_px);
   add_title(frame, lay_out(size, theme), theme, lines, right);
   std::vector<TextItem> texts;
   for (const auto& item : frame.items) texts.push_back(std::get<TextItem>(item));
@@ -205,6 +206,29 @@ TEST(Title, ANarrowPictureLosesWhatSaysLeast) {
   const std::string survey = "Fish schools of SYNTHETIC survey, made by somebody";
   EXPECT_TRUE(said(title_in({1200, 900}, {survey}, ""), survey));
   EXPECT_TRUE(said(title_in({260, 240}, {survey}, ""), "SYNTHETIC survey, made by somebody"));
+}
+
+// A flat view has fewer lines, none of them small: the plot keeps five lines' height wherever the picture has it.
+TEST(Title, AFlatPictureHasFewerLinesNotSmallerOnes) {
+  constexpr double kLeast_px = 12.0;
+  const std::vector<std::string> lines{"obs-0001 SYNTHETIC   ping 10", "Top: fan 17, elevation -4.7\u00B0, 79.6 kHz"};
+  std::size_t before = 0;
+  for (int height = 100; height <= 300; height += 10) {
+    SCOPED_TRACE(height);
+    const PixelSize size{420, height};
+    const auto texts = title_in(size, lines, "2020-01-04 08:00:50.350 UTC", kLeast_px);
+    for (const TextItem& text : texts) EXPECT_GE(text.size_px, kLeast_px) << text.text;
+    const Layout layout = lay_out(size, with_text(light_theme(size), kLeast_px));
+    for (const TextItem& text : texts) EXPECT_LT(text.at.y + 0.5 * text.size_px, layout.plot.y) << text.text;
+    if (height >= 140) {
+      EXPECT_GE(layout.plot.height, 5.0 * kLeast_px);
+    }
+    EXPECT_GE(texts.size(), before);
+    before = texts.size();
+  }
+  EXPECT_TRUE(title_in({420, 100}, lines, "", kLeast_px).empty());
+  EXPECT_EQ(title_in({420, 150}, lines, "", kLeast_px).size(), 1U);
+  EXPECT_EQ(before, 3U);
 }
 
 }  // namespace

@@ -82,8 +82,9 @@ void add_threshold(FrameDescription& frame, const BarAxis& axis, double threshol
   }
   const double x = r.x - 0.75 * em;
   const double y = r.y + r.height + 1.6 * em;
-  frame.items.emplace_back(text_item({x, y}, "threshold", 0.9 * em, theme.muted));
-  TextItem figure = text_item({x, y + 1.25 * em}, tick_text(threshold_db, 1) + " dB", 0.9 * em, theme.accent);
+  frame.items.emplace_back(text_item({x, y}, "threshold", small_text_px(theme, 0.9), theme.muted));
+  TextItem figure =
+      text_item({x, y + 1.25 * em}, tick_text(threshold_db, 1) + " dB", small_text_px(theme, 0.9), theme.accent);
   figure.bold = true;
   frame.items.emplace_back(std::move(figure));
 }

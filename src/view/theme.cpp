@@ -87,6 +87,7 @@ Theme with_text(Theme theme, double least_px) {
   constexpr double kTitle = 1.15;
   theme.text_px = std::max(theme.text_px, least_px);
   theme.title_px = std::max(theme.title_px, kTitle * least_px);
+  theme.least_text_px = static_cast<float>(least_px);
   return theme;
 }
 

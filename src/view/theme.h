@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include "view/frame_description.h"
@@ -29,8 +30,9 @@ struct Theme {
   double text_px = 12.0;
   double title_px = 14.0;
   double line_px = 1.0;
-  bool titles = true;  ///< false: pictures leave out the lines above their plot
-  bool bars = true;    ///< false: colour bars are left to the page, in FrameDescription::bars
+  bool titles = true;          ///< false: pictures leave out the lines above their plot
+  bool bars = true;            ///< false: colour bars are left to the page, in FrameDescription::bars
+  float least_text_px = 0.0F;  ///< no text is smaller
   friend bool operator==(const Theme&, const Theme&) = default;
 };
 
@@ -38,6 +40,10 @@ struct Theme {
 [[nodiscard]] Theme light_theme(PixelSize size);
 /// Text as large as this at least.
 [[nodiscard]] Theme with_text(Theme theme, double least_px);
+/// Of secondary words: a share of the text's size, but no less than the theme allows.
+[[nodiscard]] inline double small_text_px(const Theme& theme, double share) {
+  return std::max(share * theme.text_px, static_cast<double>(theme.least_text_px));
+}
 [[nodiscard]] Theme dark_theme(PixelSize size);
 
 /// A picture as a panel of a page: text is as large in every panel, however large it is, and colour bars are the page's.

@@ -15,6 +15,7 @@ import zlib
 from pathlib import Path
 
 import netCDF4
+import numpy
 import sonarx
 from rendering import BOTH, DEPTHS, SIZE, render
 
@@ -33,6 +34,40 @@ def png_texts(data):
             texts[keyword.decode()] = text[4:].decode()
         at += 12 + length
     return texts, per_metre
+
+
+def png_pixels(data):
+    """[row][column][channel], 0 to 255, of an 8-bit PNG that is not interlaced (PNG specification, 9.2: filters)."""
+    at, body = 8, b""
+    while at < len(data):
+        (length,) = struct.unpack_from(">I", data, at)
+        kind = data[at + 4:at + 8]
+        if kind == b"IHDR":
+            width, height, depth, colour = struct.unpack_from(">IIBB", data, at + 8)
+            channels = {2: 3, 6: 4}[colour]
+            assert depth == 8
+        if kind == b"IDAT":
+            body += data[at + 8:at + 8 + length]
+        at += 12 + length
+    raw, stride = zlib.decompress(body), width * channels
+    rows, above = [], bytearray(stride)
+    for y in range(height):
+        kind, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for i in range(stride):
+            left = line[i - channels] if i >= channels else 0
+            corner = above[i - channels] if i >= channels else 0
+            if kind == 1:
+                line[i] = line[i] + left & 255
+            elif kind == 2:
+                line[i] = line[i] + above[i] & 255
+            elif kind == 3:
+                line[i] = line[i] + (left + above[i]) // 2 & 255
+            elif kind == 4:
+                guess = left + above[i] - corner
+                line[i] = line[i] + min((left, above[i], corner), key=lambda near: abs(guess - near)) & 255
+        rows.append(line)
+        above = line
+    return numpy.frombuffer(b"".join(rows), numpy.uint8).reshape(height, width, channels)
 
 
 GOLDEN = sonarx.PROJECT / "tests" / "golden"
@@ -273,6 +308,39 @@ class Files(sonarx.Case):
                       for options in ([], ["--no-masks"])]
             self.assertGreaterEqual(len(titles[0]), 3, titles)
             self.assertEqual(titles[0], titles[1])
+
+    def pixels(self, *arguments):
+        file = sonarx.WORK / "pixels.png"
+        code, out, error = render(*arguments, "--out", file)
+        self.assertEqual((code, error), (0, ""), out)
+        return png_pixels(file.read_bytes()).astype(float)
+
+    def test_without_masks_nothing_else_of_a_volume_changes(self):
+        """What differs lies where a picture of the masks alone has something: on a school, a pixel's width beside it, or in the legend."""
+        volume = ["volume", *BOTH, "--ping", "9", "--frames", "0", "--renderer", "cpu", "--no-context", "--size", "320x240"]
+        for mode in ([], ["--mode", "maximum"]):
+            differs = (self.pixels(*volume, *mode) != self.pixels(*volume, *mode, "--no-masks")).any(axis=2)
+            alone = self.pixels(*volume, "--masks-alone")
+            colours, counts = numpy.unique(alone.reshape(-1, 3), axis=0, return_counts=True)
+            near = numpy.pad((alone != colours[counts.argmax()]).any(axis=2), 3)
+            height, width = differs.shape
+            near = numpy.any([near[y:y + height, x:x + width] for y in range(7) for x in range(7)], axis=0)
+            self.assertGreater(differs.sum(), 100)
+            self.assertEqual((differs & ~near).sum(), 0)
+            self.assertFalse(differs[:30].any(), "the title")
+
+    def test_scale_traces_more_rays(self):
+        """Four rays a pixel, averaged, are not the one in its middle, and nearer to the mean of sixteen frames, whose rays
+        stand elsewhere in the pixel."""
+        volume = ["volume", *BOTH, "--ping", "9", "--renderer", "cpu", "--no-context", "--no-masks", "--mode", "maximum", "--size", "320x240"]
+        inside = (slice(60, 200), slice(20, 240))
+        one = self.pixels(*volume, "--frames", "0")
+        scaled = self.pixels(*volume, "--frames", "0", "--scale", "2")
+        averaged = self.pixels(*volume, "--frames", "16")
+        many = scaled.reshape(240, 2, 320, 2, 3).mean(axis=(1, 3))
+        error = lambda picture: numpy.square(picture - averaged)[inside].mean()
+        self.assertGreater(error(one), 0.0)
+        self.assertLess(error(many), 0.6 * error(one))
 
     def test_the_first_ping_keeps_its_place_among_five(self):
         said = self.words("propagation", sonarx.OUT, "--ping", "0")

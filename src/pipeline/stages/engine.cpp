@@ -203,8 +203,11 @@ std::vector<float> Engine::background_db(std::int64_t ping_index) const {
   Array3<std::int16_t> levels = levels_over_pings(window, recipe_.background);
   const auto& own = levels_[static_cast<std::size_t>(ping_index)];
   if (!own.all().empty()) keep_quieter(own.view(), recipe_.background_window.quiet_db, levels.view());
-  const std::vector<double> combined = noise_power_db(std::as_const(levels).view(), window.size(), block_gain_.view(),
-                                                      observation_.range.count, recipe_.background);
+  const auto& told = own.all().empty() ? *window.front() : own;
+  const double spread = level_spread(told.view(), std::as_const(levels).view(), window.size(), observation_.range.count,
+                                     recipe_.background);
+  const std::vector<double> combined =
+      noise_power_db(std::as_const(levels).view(), spread, block_gain_.view(), recipe_.background);
   std::vector<float> rounded(combined.size());
   std::transform(combined.begin(), combined.end(), rounded.begin(), [](double v) { return static_cast<float>(v); });
   return rounded;

@@ -79,7 +79,7 @@ class VolumeApp {
   Image rendered(const Camera& camera) {
     PictureOptions options;
     options.size = kVolumeTestSize;
-    options.least_text_px = least_text_px(options.size);
+    options.least_text_px = kLeastText_px;
     options.ping = static_cast<int>(workspace_.document.ping());
     options.transfer = workspace_.view_curve();
     options.camera = camera;

@@ -71,7 +71,7 @@ std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const st
   input.options.display = workspace.display.values();
   input.options.volume = workspace.volume.values();
   input.options.size = look.size;
-  input.options.least_text_px = least_text_px(look.size);
+  input.options.least_text_px = kLeastText_px;
   input.options.panel = look.panel;
   input.options.dark = look.dark;
   input.options.transfer = workspace.view_curve();

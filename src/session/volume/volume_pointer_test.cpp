@@ -38,7 +38,7 @@ TEST_F(VolumePointer, AClickIsAPressUponTheVoxelThatIsSeenThere) {
   const VolumeData volume = volume_data(sector, {staged.filtered->counts, staged.filtered->flags}, kNotFiltered, depth);
   PictureOptions options;
   options.size = kVolumeTestSize;
-  options.least_text_px = least_text_px(options.size);
+  options.least_text_px = kLeastText_px;
   const auto place = volume_place(options);
   const auto& points = workspace_.view_curve().points();
   VolumeView view;

@@ -193,8 +193,9 @@ Result<FrequencyChart> frequency_chart(const FrequencyChartData& data, PixelSize
   foot.height = lines * kFootLine_em * em;
   add_key(out.frame, foot, key, theme);
   const double below = foot.y + foot.height + 0.5 * kFootLine_em * em;
-  out.frame.items.emplace_back(text_item(
-      {layout.foot.x, below}, elided(frequency_caution(), 0.9 * em, layout.foot.width), 0.9 * em, theme.muted));
+  out.frame.items.emplace_back(text_item({layout.foot.x, below},
+                                         elided(frequency_caution(), small_text_px(theme, 0.9), layout.foot.width),
+                                         small_text_px(theme, 0.9), theme.muted));
   return out;
 }
 

@@ -57,7 +57,7 @@ using Taken = std::vector<PixelPoint>;
 /// At the most level and straight place of a long line.
 void add_label(FrameDescription& frame, const std::vector<PixelPoint>& line, const std::string& text,
                const MapFrame& map, const Theme& theme, Taken& taken) {
-  const double em = 0.85 * theme.text_px;
+  const double em = small_text_px(theme, 0.85);
   const double width = text_width_px(text.c_str(), em) + 0.6 * em;
   const auto stride = static_cast<std::size_t>(std::max(2.0, std::ceil(width / kContourStep)));
   if (line.size() < 3 * stride) return;

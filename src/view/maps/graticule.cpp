@@ -224,7 +224,8 @@ void add_scale_and_north(FrameDescription& frame, const MapFrame& map, const The
     PathItem path = polyline_item({{bar.from.x, bar.from.y - tick}, bar.from, bar.to, {bar.to.x, bar.to.y - tick}},
                                   false, theme.text, 1.5 * theme.line_px);
     frame.items.emplace_back(std::move(path));
-    frame.items.emplace_back(text_item({bar.to.x + 0.4 * em, bar.to.y - 0.1 * em}, bar.text, 0.9 * em, theme.text));
+    frame.items.emplace_back(
+        text_item({bar.to.x + 0.4 * em, bar.to.y - 0.1 * em}, bar.text, small_text_px(theme, 0.9), theme.text));
   }
   double most_rad = 0.0;
   for (const double u : {0.02, 0.98}) {

@@ -89,7 +89,8 @@ void add_map_schools(FrameDescription& frame, const ObservationMapBase& base, st
   const auto left_out = add_school_numbers(frame, room, places, theme);
   if (!left_out.empty()) {
     const PixelPoint corner{base.map.place.x + base.map.place.width - 0.5 * em, base.map.place.y + 0.9 * em};
-    TextItem note = text_item(corner, elided(left_out_text(left_out), 0.9 * em, base.map.place.width - em), 0.9 * em,
+    const double size = small_text_px(theme, 0.9);
+    TextItem note = text_item(corner, elided(left_out_text(left_out), size, base.map.place.width - em), size,
                               theme.text, TextAnchor::right);
     note.halo = theme.halo;
     frame.items.emplace_back(std::move(note));

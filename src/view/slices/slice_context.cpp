@@ -132,7 +132,7 @@ class Context {
     return pixel(fan.at(fan.first_rad + (fan.last_rad - fan.first_rad) * step / kArcSteps, range * fan.shown));
   }
   void label(PixelPoint at, std::string text) {
-    TextItem item = text_item(at, std::move(text), 0.9 * em(), theme_->muted, TextAnchor::centre);
+    TextItem item = text_item(at, std::move(text), small_text_px(*theme_, 0.9), theme_->muted, TextAnchor::centre);
     item.halo = theme_->halo;
     labels_.push_back(std::move(item));
   }

@@ -136,13 +136,13 @@ void add_marks(FrameDescription& frame, std::span<const Strip> strips, const Plo
     const double from = right ? x : x - flag_px;
     frame.items.emplace_back(rectangle_item({from, y - 0.75 * em, flag_px, 1.5 * em}, theme.accent));
     const char letter = mark->kind.empty() ? '?' : static_cast<char>(mark->kind[0] - (mark->kind[0] >= 'a' ? 32 : 0));
-    TextItem flag =
-        text_item({from + flag_px / 2.0, y}, std::string(1, letter), 0.95 * em, theme.background, TextAnchor::centre);
+    TextItem flag = text_item({from + flag_px / 2.0, y}, std::string(1, letter), small_text_px(theme, 0.95),
+                              theme.background, TextAnchor::centre);
     flag.bold = true;
     frame.items.emplace_back(std::move(flag));
     // Beside the flag, to the right where nothing comes soon, else to the left; a mark without room has its hint.
     const std::string& words = mark->text.empty() ? mark->kind : mark->text;
-    const double wide = text_width_px(words.c_str(), 0.9 * em);
+    const double wide = text_width_px(words.c_str(), small_text_px(theme, 0.9));
     const double gap = 0.3 * em;
     const double next = i + 1 < all.size() ? std::min(all[i + 1].x, end) : end;
     const bool fits_right = from + flag_px + gap + wide < next;
@@ -151,7 +151,7 @@ void add_marks(FrameDescription& frame, std::span<const Strip> strips, const Plo
     if (!fits_right && !fits_left) continue;
     const double start = fits_right ? from + flag_px + gap : from - gap - wide;
     if (fits_right) free_x = start + wide;
-    TextItem text = text_item({start, y}, words, 0.9 * em, theme.text, TextAnchor::left);
+    TextItem text = text_item({start, y}, words, small_text_px(theme, 0.9), theme.text, TextAnchor::left);
     text.halo = theme.halo;
     frame.items.emplace_back(std::move(text));
   }
@@ -159,6 +159,7 @@ void add_marks(FrameDescription& frame, std::span<const Strip> strips, const Plo
 
 void add_names(FrameDescription& frame, std::span<const Strip> strips, const PlotFrame& plot, const Theme& theme) {
   const double em = theme.text_px;
+  const double size = small_text_px(theme, 0.9);
   double free_x = -1e9;
   for (const Strip& strip : strips) {
     const StripSpan s = strip.span();
@@ -170,12 +171,12 @@ void add_names(FrameDescription& frame, std::span<const Strip> strips, const Plo
     frame.items.emplace_back(rectangle_item({from, y, to - from, 0.25 * em}, theme.track));
     const std::string& label = strip.observation->label;
     const std::string name =
-        elided(label.empty() ? strip.observation->product->observation : label, 0.9 * em, plot.place.width);
-    const double half = text_width_px(name.c_str(), 0.9 * em) / 2.0;
+        elided(label.empty() ? strip.observation->product->observation : label, size, plot.place.width);
+    const double half = text_width_px(name.c_str(), size) / 2.0;
     const double middle = std::clamp((from + to) / 2.0, plot.place.x + half, plot.place.x + plot.place.width - half);
     if (middle - half < free_x) continue;
     free_x = middle + half + 0.6 * em;
-    frame.items.emplace_back(text_item({middle, y - 0.75 * em}, name, 0.9 * em, theme.muted, TextAnchor::centre));
+    frame.items.emplace_back(text_item({middle, y - 0.75 * em}, name, size, theme.muted, TextAnchor::centre));
   }
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "geo/geodesic.h"
 #include "view/label_room.h"
 #include "view/volume/context_layout.h"
 #include "view/volume/context_scene.h"
@@ -225,6 +226,16 @@ std::optional<PixelRect> school_box(const SchoolPlace& school, const CameraBasis
   bottom = std::min<double>(bottom, camera.size.height);
   if (!(left < right) || !(top < bottom)) return std::nullopt;
   return PixelRect{left, top, right - left, bottom - top};
+}
+
+ConvexOutline school_outline(const SchoolPlace& school, const CameraBasis& camera) {
+  std::vector<PlanePoint> seen;
+  for (const Point<Sonar>& place : school.edge) {
+    if (const auto at = camera.project(place)) seen.push_back({at->pixel.x, at->pixel.y});
+  }
+  ConvexOutline out;
+  for (const PlanePoint& p : convex_hull(std::move(seen))) out.push_back({p.x, p.y});
+  return out;
 }
 
 void add_context_labels(FrameDescription& frame, const Sector& sector, const ContextParams& params,

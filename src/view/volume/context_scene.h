@@ -12,6 +12,7 @@
 #include "geo/sector.h"
 #include "view/colour_map.h"
 #include "view/frame_description.h"
+#include "view/free_place.h"
 #include "view/theme.h"
 #include "view/volume/camera.h"
 #include "view/volume/school_places.h"
@@ -114,6 +115,8 @@ struct OpaqueView {
 
 /// What a school covers of a picture, at most; empty where it is not seen.
 [[nodiscard]] std::optional<PixelRect> school_box(const SchoolPlace& school, const CameraBasis& camera);
+/// The same as a convex shape, which leaves more room beside it; it may reach beyond the picture.
+[[nodiscard]] ConvexOutline school_outline(const SchoolPlace& school, const CameraBasis& camera);
 
 /// Names of the schools, labels of the rings, bearings, the depth axis and the slices, where the camera sees them: each
 /// beside what it names, none on another or on a school, and off the lines where there is room. What has no room, or is

@@ -28,8 +28,8 @@ void add_ping_label(FrameDescription& frame, const PropagationPanel& panel, cons
   };
   if (panel.time != 0) {
     const std::string clock = clock_text(panel.time, true);
-    add(clock.substr(11) + (style.dates ? " UTC" : ""), 0.9 * em, theme.muted);
-    if (style.dates) add(clock.substr(0, 10), 0.9 * em, theme.muted);
+    add(clock.substr(11) + (style.dates ? " UTC" : ""), small_text_px(theme, 0.9), theme.muted);
+    if (style.dates) add(clock.substr(0, 10), small_text_px(theme, 0.9), theme.muted);
   } else {
     y -= (style.dates ? 2.6 : 1.3) * em;
   }
@@ -38,7 +38,7 @@ void add_ping_label(FrameDescription& frame, const PropagationPanel& panel, cons
 
 void add_depth_scale(FrameDescription& frame, double middle_m, double px_per_m, const PixelRect& place,
                      const Theme& theme) {
-  const double size = 0.8 * theme.text_px;
+  const double size = small_text_px(theme, 0.8);
   const double half_m = 0.5 * place.height / px_per_m;
   const double shallow = middle_m - half_m;
   const double deep = middle_m + half_m;
@@ -64,7 +64,7 @@ void add_depth_scale(FrameDescription& frame, double middle_m, double px_per_m, 
 
 void add_panel_numbers(FrameDescription& frame, std::span<const PanelNumber> numbers, const PixelRect& place,
                        const Theme& theme) {
-  const double size = 0.9 * theme.text_px;
+  const double size = small_text_px(theme, 0.9);
   const double gap = 0.4 * size;
   LabelRoom room(place);
   for (const PanelNumber& number : numbers) room.take(number.mask);
@@ -91,7 +91,7 @@ void add_panel_numbers(FrameDescription& frame, std::span<const PanelNumber> num
 }
 
 void add_panel_note(FrameDescription& frame, const std::string& note, const PixelRect& place, const Theme& theme) {
-  const double size = 0.85 * theme.text_px;
+  const double size = small_text_px(theme, 0.85);
   const std::vector<std::string> lines = wrapped(note, place.width - size, size);
   double y = place.y + place.height - 0.4 * size - 1.25 * size * (static_cast<double>(lines.size()) - 0.5);
   for (const std::string& line : lines) {
