@@ -30,6 +30,7 @@ constexpr auto kWords = std::to_array<ColumnWords>({
     {"continues", "observation and school that this one continues"},
     {"course_deg", "course over ground, clockwise from true north"},
     {"decided_utc", "time of an operator's decision, UTC"},
+    {"depth_error_m", "depth along the bent ray minus depth along the straight path, at the centre"},
     {"depth_m", "depth of the centre below the sea surface", "depth"},
     {"depth_max_m", "greatest depth of a member"},
     {"depth_min_m", "least depth of a member"},

@@ -73,6 +73,8 @@ struct SchoolPingRow {
   double backscatter_total_m2 = kUnknown;
   double backscatter_total_se_m2 = kUnknown;
   std::int64_t survey_school = 0;  ///< number of the school in the survey, 1..; 0 = not merged yet
+  // Refraction: known with a sound speed profile only.
+  double depth_error_m = kUnknown;
 };
 
 /// SchoolRow::ended_at_reach: neither end, its first ping, its last, or both.
@@ -119,6 +121,8 @@ struct SchoolRow {
   /// kEndNames: ends of the track that a propagation by hand left only because it was asked no farther.
   std::string ended_at_reach;
   std::int64_t survey_school = 0;  ///< number of the school in the survey, 1..; 0 = not merged yet
+  // Refraction: known with a sound speed profile only.
+  double depth_error_m = kUnknown;
 };
 
 /// Time column: ISO 8601 in text, empty for 0.
@@ -175,6 +179,8 @@ void columns(Visitor& v, SchoolPingRow& r) {
   v("backscatter_total_m2", "m2", r.backscatter_total_m2);
   v("backscatter_total_se_m2", "m2", r.backscatter_total_se_m2);
   v("survey_school", "1", r.survey_school);
+  // Refraction.
+  v("depth_error_m", "m", r.depth_error_m);
 }
 
 template <class Visitor>
@@ -215,13 +221,15 @@ void columns(Visitor& v, SchoolRow& r) {
   v("backscatter_total_se_m2", "m2", r.backscatter_total_se_m2);
   v("ended_at_reach", "", r.ended_at_reach);
   v("survey_school", "1", r.survey_school);
+  // Refraction.
+  v("depth_error_m", "m", r.depth_error_m);
 }
 
 /// Columns that came after the first published tables: a file without them is whole, and has none of it.
 [[nodiscard]] constexpr bool is_later_column(std::string_view column) {
   return column == "name" || column == "backscatter_psi_error_db" || column == "backscatter_calibration_se_db" ||
          column == "backscatter_total_m2" || column == "backscatter_total_se_m2" || column == "ended_at_reach" ||
-         column == "survey_school";
+         column == "survey_school" || column == "depth_error_m";
 }
 
 }  // namespace sonar

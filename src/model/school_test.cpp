@@ -31,8 +31,8 @@ TEST(SchoolColumns, OfPings) {
             "sv_max_db,backscatter_m2,valid_fraction,volume_corrected_m3,length_corrected_m,width_corrected_m,"
             "height_corrected_m,sv_corrected_db,snr_db,threshold_db,edge_flags,edge_fraction,touches_edge,"
             "bottom_depth_m,provisional,backscatter_psi_error_db,backscatter_calibration_se_db,"
-            "backscatter_total_m2,backscatter_total_se_m2,survey_school");
-  EXPECT_EQ(names.seen.size(), 41U);
+            "backscatter_total_m2,backscatter_total_se_m2,survey_school,depth_error_m");
+  EXPECT_EQ(names.seen.size(), 42U);
 }
 
 TEST(SchoolColumns, OfTracks) {
@@ -44,8 +44,8 @@ TEST(SchoolColumns, OfTracks) {
             "depth_m,volume_m3,volume_corrected_m3,length_m,width_m,height_m,sv_mean_db,sv_corrected_db,"
             "backscatter_m2,speed_mps,speed_se_mps,course_deg,vertical_speed_mps,touches_edge_fraction,origin,status,"
             "operator,decided_utc,species,comment,name,backscatter_psi_error_db,backscatter_calibration_se_db,"
-            "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach,survey_school");
-  EXPECT_EQ(names.seen.size(), 36U);
+            "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach,survey_school,depth_error_m");
+  EXPECT_EQ(names.seen.size(), 37U);
 }
 
 // 1 fore, 2 aft, 4 top fan, 8 bottom fan, 16 near, 32 far, 64 seabed, 128 surface, 256 flagged data.

@@ -21,13 +21,13 @@ SCHOOL_PINGS = (
     "valid_fraction,volume_corrected_m3,length_corrected_m,width_corrected_m,height_corrected_m,sv_corrected_db,snr_db,"
     "threshold_db,edge_flags,edge_fraction,touches_edge,bottom_depth_m,provisional,backscatter_psi_error_db,"
     "backscatter_calibration_se_db,"
-    "backscatter_total_m2,backscatter_total_se_m2,survey_school").split(",")
+    "backscatter_total_m2,backscatter_total_se_m2,survey_school,depth_error_m").split(",")
 SCHOOLS = (
     "observation,school_id,continues,first_time_utc,last_time_utc,n_pings,n_pings_whole,latitude,longitude,depth_m,"
     "volume_m3,volume_corrected_m3,length_m,width_m,height_m,sv_mean_db,sv_corrected_db,backscatter_m2,speed_mps,"
     "speed_se_mps,course_deg,vertical_speed_mps,touches_edge_fraction,origin,status,operator,decided_utc,species,"
     "comment,name,backscatter_psi_error_db,backscatter_calibration_se_db,"
-    "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach,survey_school").split(",")
+    "backscatter_total_m2,backscatter_total_se_m2,ended_at_reach,survey_school,depth_error_m").split(",")
 
 
 def run(*arguments, timeout=600, cache=WORK / "cache"):

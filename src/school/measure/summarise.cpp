@@ -188,6 +188,7 @@ SchoolRow summarise(std::span<const SchoolPingRow> rows, const SummariseParams& 
   const Rows& used = whole.empty() ? all : whole;
   summarise_place(used, out);
   out.depth_m = mean_of(used, &SchoolPingRow::depth_m);
+  out.depth_error_m = mean_of(used, &SchoolPingRow::depth_error_m);
   out.volume_m3 = median_of(used, &SchoolPingRow::volume_m3);
   out.length_m = median_of(used, &SchoolPingRow::length_m);
   out.width_m = median_of(used, &SchoolPingRow::width_m);
