@@ -8,6 +8,7 @@
 #include "base/check.h"
 #include "base/units.h"
 #include "geo/geodesic.h"
+#include "school/measure/centre_track.h"
 #include "school/measure/line_fit.h"
 
 namespace sonar {
@@ -92,30 +93,10 @@ void take_speed(const LineFit& line, SchoolRow& out) {
 }
 
 void summarise_motion(std::span<const SchoolPingRow> rows, const SummariseParams& params, SchoolRow& out) {
-  std::vector<double> t;
-  std::vector<double> east;
-  std::vector<double> north;
-  std::vector<double> down;
-  Geographic origin;
-  TimeNs start = 0;
-  for (const SchoolPingRow& row : rows) {
-    if ((row.edge_flags & kCutsCentre) != 0) continue;
-    if (!std::isfinite(row.latitude) || !std::isfinite(row.longitude) || !std::isfinite(row.depth_m)) continue;
-    if (t.empty()) {
-      origin = {row.latitude, row.longitude};
-      start = row.time_utc;
-    }
-    const Point<Enu> place = to_enu(Geographic{row.latitude, row.longitude}, origin);
-    t.push_back(static_cast<double>(row.time_utc - start) / static_cast<double>(kSecondNs));
-    east.push_back(place.x);
-    north.push_back(place.y);
-    down.push_back(row.depth_m);
-  }
-  if (t.size() < static_cast<std::size_t>(std::max(params.min_speed_pings, 3))) return;
-  if (t.back() - t.front() < params.min_speed_span_s) return;
-  if (!(t.back() > t.front())) return;
-  take_speed(fit_line(t, east, north), out);
-  out.vertical_speed_mps = fit_line(t, down, down).slope_x;  // positive down, as depth
+  const CentreTrack track = centre_track(rows);
+  if (!track.tells_speed(params.min_speed_pings, params.min_speed_span_s)) return;
+  take_speed(fit_line(track.t, track.east, track.north), out);
+  out.vertical_speed_mps = fit_line(track.t, track.down, track.down).slope_x;  // positive down, as depth
 }
 
 /// Mean place of the rows; longitudes are averaged as distances, so that the date line does no harm.
