@@ -1,30 +1,28 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The setup check of the small survey, against numpy on its tables."""
+"""The setup check says what it lacks, and never guesses; its figures are tested where tracks are known (setup_check_test)."""
 import json
-import math
 
 import sonarx
 from sonarx import Case, run
 
 
 class Check(Case):
-    def test_a_simulated_setup_is_right_within_its_errors(self):
+    def test_too_few_schools_are_told(self):
+        """The small survey has fewer schools that were seen long enough than the check needs."""
+        with_speed = sum(1 for school in sonarx.read_csv(sonarx.OUT / "schools.csv") if school["speed_mps"])
         code, said, err = run("check", sonarx.OUT, "--json")
-        self.assertEqual(code, 0, err)
+        if with_speed < 3:
+            self.assertEqual((code, said), (1, ""))
+            self.assertIn(f"expected 3 or more, found {with_speed}", err)
+            return
         told = json.loads(said)
-        self.assertEqual(told["schools"], sum(1 for s in sonarx.read_csv(sonarx.OUT / "schools.csv") if s["speed_mps"]))
-        self.assertEqual(sum(leg["schools"] for leg in told["legs"]), told["schools"])
-        self.assertLess(abs(told["bearing_error_deg"]), 4 * told["bearing_error_se_deg"])
-        self.assertLess(abs(told["range_scale"] - 1), 4 * told["range_scale_se"])
-        self.assertTrue(math.isclose(told["proposed_sound_speed_mps"] * told["range_scale"], told["sound_speed_mps"]))
-        code, said, err = run("check", sonarx.OUT)
-        self.assertEqual(code, 0, err)
-        self.assertIn("navigation.mounting_azimuth_deg 270 -> ", said)
+        self.assertEqual((code, told["schools"]), (0, with_speed), err)
+        self.assertEqual(told["proposed_mounting_azimuth_deg"] is None, told["drift"] is None)
 
     def test_an_empty_folder_is_named(self):
         folder = self.fresh("check")
         code, _, err = run("check", folder)
-        self.assertNotEqual(code, 0)
+        self.assertEqual(code, 1)
         self.assertIn(str(folder), err)
 
 

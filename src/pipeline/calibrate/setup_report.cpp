@@ -82,11 +82,11 @@ Result<SetupReport> setup_report(const fs::path& out, Work& work) {
   SetupReport report;
   report.check = std::move(*check);
   report.mounting_azimuth_deg = seen->recipe->navigation.mounting_azimuth_deg;
+  if (!report.check.drift_known) return report;
+  const double scale = report.check.range_scale;
   report.proposed_mounting_azimuth_deg = wrap_360(report.mounting_azimuth_deg - report.check.bearing_error_deg);
-  report.sound_speed_mps = middle_of(seen->sound_speeds_mps);
-  report.proposed_sound_speed_mps = report.sound_speed_mps / report.check.range_scale;
-  report.proposed_sound_speed_se_mps =
-      report.proposed_sound_speed_mps * report.check.range_scale_se / report.check.range_scale;
+  report.proposed_sound_speed_mps = report.sound_speed_mps / scale;
+  report.proposed_sound_speed_se_mps = report.proposed_sound_speed_mps * report.check.range_scale_se / scale;
   return report;
 }
 
@@ -102,20 +102,23 @@ std::string setup_text(const SetupReport& report) {
         iso_time(leg.first_time), leg.course_deg, leg.ship_mps, leg.schools, leg.along_mps, leg.along_se_mps,
         leg.cross_mps, leg.cross_se_mps);
   }
-  text +=
-      c.drift_known
-          ? fmt::format(
-                "drift of all schools: east {:+.3f} +- {:.3f} m/s, north {:+.3f} +- {:.3f} m/s; each their own way: "
-                "{:.2f} m/s\n",
-                c.drift_east_mps, c.drift_east_se_mps, c.drift_north_mps, c.drift_north_se_mps, c.own_speed_mps)
-          : "the ship sailed one course: a current, or fish that all swim one way, cannot be told from the setup and "
-            "is "
-            "taken to be none\n";
-  text += fmt::format("bearings too large by {:+.2f} +- {:.2f} degrees: navigation.mounting_azimuth_deg {} -> {:.2f}\n",
-                      c.bearing_error_deg, c.bearing_error_se_deg, report.mounting_azimuth_deg,
+  const std::string bearings =
+      fmt::format("bearings too large by {:+.2f} +- {:.2f} degrees", c.bearing_error_deg, c.bearing_error_se_deg);
+  const std::string ranges =
+      fmt::format("ranges too long by {:+.2f} +- {:.2f} %", 100.0 * (c.range_scale - 1.0), 100.0 * c.range_scale_se);
+  if (!c.drift_known) {
+    return text + fmt::format(
+                      "the ship sailed one course, on which a current, or fish that all swim one way, looks as a wrong "
+                      "setup does: nothing "
+                      "is proposed\nif nothing drifted: {}, {}\n",
+                      bearings, ranges);
+  }
+  text += fmt::format(
+      "drift of all schools: east {:+.3f} +- {:.3f} m/s, north {:+.3f} +- {:.3f} m/s; each its own way: {:.2f} m/s\n",
+      c.drift_east_mps, c.drift_east_se_mps, c.drift_north_mps, c.drift_north_se_mps, c.own_speed_mps);
+  text += fmt::format("{}: navigation.mounting_azimuth_deg {} -> {:.2f}\n", bearings, report.mounting_azimuth_deg,
                       report.proposed_mounting_azimuth_deg);
-  text += fmt::format("ranges too long by {:+.2f} +- {:.2f} %: sound speed {:.1f} -> {:.1f} +- {:.1f} m/s\n",
-                      100.0 * (c.range_scale - 1.0), 100.0 * c.range_scale_se, report.sound_speed_mps,
+  text += fmt::format("{}: sound speed {:.1f} -> {:.1f} +- {:.1f} m/s\n", ranges, report.sound_speed_mps,
                       report.proposed_sound_speed_mps, report.proposed_sound_speed_se_mps);
   return text;
 }

@@ -14,10 +14,10 @@ namespace sonar {
 struct SetupReport {
   SetupCheck check;
   double mounting_azimuth_deg = 0.0;
-  double proposed_mounting_azimuth_deg = 0.0;
-  double sound_speed_mps = 0.0;  ///< middle of the observations'
-  double proposed_sound_speed_mps = 0.0;
-  double proposed_sound_speed_se_mps = 0.0;
+  double proposed_mounting_azimuth_deg = kUnknown;  ///< this and the next two: where the drift is known
+  double sound_speed_mps = 0.0;                     ///< middle of the observations'
+  double proposed_sound_speed_mps = kUnknown;
+  double proposed_sound_speed_se_mps = kUnknown;
 };
 
 /// From the products of a work folder alone; rejected schools are left out.
