@@ -15,8 +15,9 @@ import sonarx
 from sonarx import SURVEY, VERBS, WORK, Case
 
 PROJECT = Path(__file__).resolve().parent.parent.parent
-# Left out: what takes another program or another machine. tests/cluster hands surveys in to a real Slurm.
-ELSEWHERE = re.compile(r"^sonarx submit (?!.*--dry-run)" + ("" if shutil.which("ffmpeg") else r"|^sonarx render movie .*\.mp4"))
+# Left out: what takes another program or another machine, or more schools than the tests' survey has (tests/cli/check_test.py).
+# tests/cluster hands surveys in to a real Slurm.
+ELSEWHERE = re.compile(r"^sonarx submit (?!.*--dry-run)|^sonarx check " + ("" if shutil.which("ffmpeg") else r"|^sonarx render movie .*\.mp4"))
 # What the reader brings.
 BROUGHT = {"cast.csv": "depth_m,sound_speed_mps\n0,1485\n100,1478\n",
            "transects.csv": "name,stratum,type,start_utc,stop_utc\nT1,north,transect,2000-01-01T00:00:00Z,2100-01-01T00:00:00Z\n"}
