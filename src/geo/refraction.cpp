@@ -11,7 +11,7 @@
 namespace sonar {
 namespace {
 
-constexpr std::size_t kElevations = 721;
+constexpr std::size_t kElevations = 361;
 constexpr std::size_t kRanges = 257;
 /// Level rays part where steep ones do not: the table's elevations lie closer the nearer they are to the level.
 constexpr double kLevel_rad = 4.0 * std::numbers::pi / 180.0;

@@ -10,7 +10,7 @@ namespace sonar {
 
 /// Where sound that bends in a profile comes from, and where a straight path would have it come from: the sonar says at
 /// which elevation a beam leaves and after which time its echo returns, counted as slant range at one speed. The way runs
-/// in the vertical plane of the beam. Worked out once from exact rays, 0.04 (level) to 1 degree (upright) and a 256th of
+/// in the vertical plane of the beam. Worked out once from exact rays, 0.08 (level) to 2 degrees (upright) and a 256th of
 /// the range apart, and between those evenly: within 0.1 m of the ray.
 /// threads  immutable
 class Refraction {
