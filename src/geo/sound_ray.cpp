@@ -51,7 +51,7 @@ void SoundRay::begin_on_line(std::size_t line) {
 }
 
 /// The end of the layer that the ray comes to, when, and how steep it is there. Never, where it does not.
-SoundRay::Exit SoundRay::exit() const {
+SoundRay::LayerEnd SoundRay::layer_end() const {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const double g = gradient(layer_);
   const double to_top_m = layer_ > 0 ? profile_[layer_ - 1].depth_m - at_.depth_m : -kNever;
@@ -91,7 +91,7 @@ void SoundRay::move(double time_s) {
   if (g != 0.0) tangent_ = std::sinh(after);
 }
 
-void SoundRay::cross(const Exit& through) {
+void SoundRay::cross(const LayerEnd& through) {
   move(through.time_s);
   const std::size_t line = through.down ? layer_ : layer_ - 1;
   at_.depth_m = profile_[line].depth_m;  // exactly
@@ -105,7 +105,7 @@ void SoundRay::advance(double time_s) {
   constexpr int kMostCrossings = 100'000;
   for (int crossings = 0; time_s > 0.0; ++crossings) {
     level_ = level_ || crossings == kMostCrossings;
-    const Exit next = exit();
+    const LayerEnd next = layer_end();
     if (!(next.time_s < time_s)) return move(time_s);
     cross(next);
     time_s -= next.time_s;

@@ -39,16 +39,16 @@ class SoundRay {
   [[nodiscard]] RayPlace place() const;
 
  private:
-  struct Exit {
+  struct LayerEnd {
     double time_s;
     double tangent;
     bool down;
   };
   [[nodiscard]] double gradient(std::size_t layer) const;
-  [[nodiscard]] Exit exit() const;
+  [[nodiscard]] LayerEnd layer_end() const;
   void begin_on_line(std::size_t line);
   void move(double time_s);
-  void cross(const Exit& through);
+  void cross(const LayerEnd& through);
 
   const SoundProfile& profile_;
   std::size_t layer_ = 0;  ///< between lines layer_ - 1 and layer_
