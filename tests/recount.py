@@ -323,7 +323,8 @@ def summary(o, rows):
     out = {"n_pings": len(rows), "n_pings_whole": len(whole), "touches_edge_fraction": 1 - len(whole) / len(rows),
            "depth_m": mean("depth_m"), "sv_mean_db": db("sv_mean_db"), "backscatter_m2": math.nan,
            "volume_corrected_m3": math.nan, "sv_corrected_db": math.nan, "backscatter_psi_error_db": math.nan,
-           "backscatter_calibration_se_db": math.nan, "backscatter_total_m2": mean("backscatter_total_m2")}
+           "backscatter_calibration_se_db": math.nan, "backscatter_total_m2": mean("backscatter_total_m2"),
+           "depth_error_m": mean("depth_error_m")}
     errors = values("backscatter_total_se_m2")
     out["backscatter_total_se_m2"] = math.sqrt((errors**2).sum()) / len(errors) if len(errors) else math.nan
     for name in ("volume_m3", "length_m", "width_m", "height_m", *MEDIANS):

@@ -14,7 +14,8 @@ inline constexpr const char* kCalibrationHelp =
     "its error in a column *_se; taken into the recipe";
 
 inline constexpr const char* kSoundSpeedHelp =
-    "m/s, or a CSV depth_m,sound_speed_mps: stands for the files' sound speed; taken into the recipe";
+    "m/s, or a profile (CSV depth_m,sound_speed_mps, Sea-Bird .cnv, or .ctd of Time Step Data): stands for the files' "
+    "sound speed; taken into the recipe";
 
 inline constexpr const char* kCurrentsHelp =
     "netCDF of an ADCP (CF, CODAS/UHDAS or OceanSITES names): the water's velocity, for speeds through the water; "

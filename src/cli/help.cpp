@@ -46,6 +46,7 @@ constexpr std::array kExamples = {
              "  sonarx submit SURVEY -o OUT --partition long --account fish\n"
              "  sonarx submit SURVEY -o OUT --dry-run     the scripts alone\n"},
     Examples{"status", "  sonarx status OUT\n  sonarx status OUT --json\n"},
+    Examples{"check", "  sonarx check OUT\n  sonarx check OUT --json\n"},
     Examples{"integrate",
              "  sonarx integrate SURVEY -o OUT\n"
              "  sonarx integrate SURVEY -o OUT --edsu-nmi 0.1 --range-bin-m 25 --depth-channel-m 20\n"},

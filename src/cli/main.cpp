@@ -48,6 +48,7 @@ int run_program(int argc, char** argv) {
   add_merge(app, run);
   add_submit(app, run);
   add_status(app, run);
+  add_check(app, run);
   add_integrate(app, run);
   add_biomass(app, run);
   add_propagate(app, run);

@@ -22,6 +22,7 @@ void add_follow(CLI::App& app, VerbRunner& run);
 void add_merge(CLI::App& app, VerbRunner& run);
 void add_submit(CLI::App& app, VerbRunner& run);
 void add_status(CLI::App& app, VerbRunner& run);
+void add_check(CLI::App& app, VerbRunner& run);
 void add_integrate(CLI::App& app, VerbRunner& run);
 void add_biomass(CLI::App& app, VerbRunner& run);
 void add_propagate(CLI::App& app, VerbRunner& run);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geo/frames.h"
 
+#include "geo/refraction.h"
+
 namespace sonar {
 
 Point<Enu> to_enu(const Point<Sonar>& p, double heading_rad) {
@@ -25,12 +27,14 @@ Point<Sonar> level(const Point<Vessel>& p, double roll_rad, double pitch_rad) {
   return {p.x * cp + z * sp, y, -p.x * sp + z * cp};
 }
 
-Point<Sonar> levelled(const Point<Sonar>& p, const Placement& placement) {
+namespace {
+
+Point<Sonar> turned(const Point<Sonar>& p, const Placement& placement) {
   if (placement.roll_rad == 0.0 && placement.pitch_rad == 0.0) return p;
   return level(Point<Vessel>{p.x, p.y, p.z}, placement.roll_rad, placement.pitch_rad);
 }
 
-Point<Sonar> unlevelled(const Point<Sonar>& p, const Placement& placement) {
+Point<Sonar> turned_back(const Point<Sonar>& p, const Placement& placement) {
   if (placement.roll_rad == 0.0 && placement.pitch_rad == 0.0) return p;
   const double cr = std::cos(placement.roll_rad);
   const double sr = std::sin(placement.roll_rad);
@@ -38,6 +42,17 @@ Point<Sonar> unlevelled(const Point<Sonar>& p, const Placement& placement) {
   const double sp = std::sin(placement.pitch_rad);
   const double z = p.x * sp + p.z * cp;
   return {p.x * cp - p.z * sp, p.y * cr + z * sr, -p.y * sr + z * cr};
+}
+
+}  // namespace
+
+Point<Sonar> levelled(const Point<Sonar>& p, const Placement& placement) {
+  const Point<Sonar> straight = turned(p, placement);
+  return placement.rays ? placement.rays->bent(straight) : straight;
+}
+
+Point<Sonar> unlevelled(const Point<Sonar>& p, const Placement& placement) {
+  return turned_back(placement.rays ? placement.rays->straightened(p) : p, placement);
 }
 
 double wrap_360(double deg) {

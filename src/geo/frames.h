@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 
 namespace sonar {
 
@@ -27,6 +28,8 @@ template <class Frame>
   return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
 }
 
+class Refraction;
+
 /// WGS 84, degrees; longitude in [-180, 180).
 struct Geographic {
   double latitude_deg = 0.0;
@@ -41,6 +44,7 @@ struct Placement {
   double transducer_depth_m = 0.0;  ///< below the mean water line, heave included where it applies
   double roll_rad = 0.0;            ///< of beams that are fixed to the hull, positive port up; 0 = stabilised beams
   double pitch_rad = 0.0;           ///< the same, positive bow up
+  std::shared_ptr<const Refraction> rays{};  ///< along which sound travels; null = straight paths
 };
 
 /// Turns by heading only (roll and pitch are already out of the sonar frame).
@@ -50,7 +54,8 @@ struct Placement {
 /// Full attitude: roll positive port up (starboard down), pitch positive bow up; radians.
 [[nodiscard]] Point<Sonar> level(const Point<Vessel>& p, double roll_rad, double pitch_rad);
 
-/// Where a place in the sector lies once the beams are turned by the placement's roll and pitch; stabilised beams stay.
+/// Where a place in the sector lies once the beams are turned by the placement's roll and pitch (stabilised beams stay) and
+/// bent along its rays: the one place where refraction enters.
 [[nodiscard]] Point<Sonar> levelled(const Point<Sonar>& p, const Placement& placement);
 /// The other way.
 [[nodiscard]] Point<Sonar> unlevelled(const Point<Sonar>& p, const Placement& placement);

@@ -48,6 +48,7 @@ constexpr auto kWords = std::to_array<ColumnWords>({
     {"current_north_mps", "northward velocity of the water along the track", "northward_sea_water_velocity"},
     {"current_se_mps", "standard error of the velocity of the water, each way"},
     {"decided_utc", "time of an operator's decision, UTC"},
+    {"depth_error_m", "depth along the bent ray minus depth along the straight path, at the centre"},
     {"depth_m", "depth of the centre below the sea surface", "depth"},
     {"depth_max_m", "greatest depth of a member"},
     {"depth_min_m", "least depth of a member"},

@@ -126,6 +126,8 @@ struct SchoolPingRow : SchoolDescriptors {
   double time_to_cpa_s = kUnknown;
   double cpa_m = kUnknown;
   double wake_distance_m = kUnknown;
+  // Refraction: known with a sound speed profile only.
+  double depth_error_m = kUnknown;
 };
 
 /// SchoolRow::ended_at_reach: neither end, its first ping, its last, or both.
@@ -184,6 +186,8 @@ struct SchoolRow : SchoolDescriptors {
   double current_east_mps = kUnknown;
   double current_north_mps = kUnknown;
   double current_se_mps = kUnknown;
+  // Refraction: known with a sound speed profile only.
+  double depth_error_m = kUnknown;
 };
 
 /// Time column: ISO 8601 in text, empty for 0.
@@ -297,6 +301,8 @@ void columns(Visitor& v, SchoolPingRow& r) {
   v("time_to_cpa_s", "s", r.time_to_cpa_s);
   v("cpa_m", "m", r.cpa_m);
   v("wake_distance_m", "m", r.wake_distance_m);
+  // Refraction.
+  v("depth_error_m", "m", r.depth_error_m);
 }
 
 template <class Visitor>
@@ -350,6 +356,8 @@ void columns(Visitor& v, SchoolRow& r) {
   v("current_east_mps", "m s-1", r.current_east_mps);
   v("current_north_mps", "m s-1", r.current_north_mps);
   v("current_se_mps", "m s-1", r.current_se_mps);
+  // Refraction.
+  v("depth_error_m", "m", r.depth_error_m);
 }
 
 /// Columns of movement, of both tables.
@@ -389,6 +397,7 @@ inline constexpr std::array<std::string_view, 26> kMovementColumns{"speed_smooth
                                          "backscatter_total_se_m2",
                                          "ended_at_reach",
                                          "survey_school",
+                                         "depth_error_m",
                                          "box_bearing_deg",
                                          "box_tilt_deg",
                                          "mass_latitude",

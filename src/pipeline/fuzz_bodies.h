@@ -15,6 +15,7 @@
 #include "pipeline/recipe/json_file.h"
 #include "pipeline/recipe/recipe.h"
 #include "pipeline/recipe/transfer_function_json.h"
+#include "pipeline/survey/cast_files.h"
 #include "pipeline/survey/sound_profile.h"
 #include "pipeline/tasks/plan.h"
 
@@ -91,8 +92,7 @@ inline void calibration_csv(std::string_view text) {
 
 /// A profile that is taken has a speed of this planet's water between any depths, and is one that a recipe may hold.
 inline void sound_profile(std::string_view text) {
-  const auto table = parse_csv(text, "fuzz");
-  const auto profile = table ? profile_from_table(*table) : Result<SoundProfile>(pass_on(table));
+  const auto profile = profile_from_bytes(text, "fuzz");
   if (!profile) return;
   for (const double depth_m : {0.0, 3.5, 200.0}) {
     const double speed_mps = harmonic_mean_mps(*profile, depth_m, 400.0);

@@ -64,6 +64,8 @@ class DrawnObservation {
   [[nodiscard]] DrawnPing ping_without_samples(std::int64_t ping_index) const;
   /// Null without raw files or without a grid.
   [[nodiscard]] Engine* engine() { return engine_.get(); }
+  /// As Engine::rays(); null without an engine.
+  [[nodiscard]] std::shared_ptr<const Refraction> rays() const { return engine_ ? engine_->rays() : nullptr; }
   /// Null without raw files, as the next.
   [[nodiscard]] const SurveyFiles* survey() const { return survey_; }
   [[nodiscard]] const ObservationFiles* files() const { return files_; }

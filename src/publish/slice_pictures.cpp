@@ -131,6 +131,7 @@ SlicePing titled_ping(const DrawnObservation& observation, const DrawnPing& ping
   titled.heading_rad = rad_from_deg(ping.navigation.heading_deg);
   titled.transducer_depth_m = ping.navigation.transducer_depth_m;
   titled.frequency_hz = observation.frequency_hz();
+  titled.rays = observation.rays();
   return titled;
 }
 

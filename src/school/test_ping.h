@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "school/measure/correct_sizes.h"
@@ -43,6 +44,7 @@ struct MeasuredPing {
     in.psi_error_db = psi_error_db;
     in.calibration_se_db = calibration_se_db;
     in.seabed = seabed;
+    in.rays = rays;
     return measure(in, mask, params);
   }
 
@@ -62,6 +64,7 @@ struct MeasuredPing {
   Array3<SampleFlags> flags;
   FlatBackground flat;
   Placement placement;
+  std::shared_ptr<const Refraction> rays;
   PingMask mask;
   Array3<std::int16_t> counts;
   Array3<std::int16_t> filtered;

@@ -43,6 +43,8 @@ class OpenObservation {
   [[nodiscard]] const ObservationFiles& files() const { return survey_->observations[index_]; }
   /// Where a ping was made, with the attitude that its beams follow.
   [[nodiscard]] Placement placement(std::int64_t ping_index) const { return engine_.placement(ping_index); }
+  /// As Engine::rays().
+  [[nodiscard]] const std::shared_ptr<const Refraction>& rays() const { return engine_.rays(); }
   [[nodiscard]] const std::string& name() const { return files().name; }
   /// "obs-0001", with SYNTHETIC behind it where the data is.
   [[nodiscard]] std::string title() const;

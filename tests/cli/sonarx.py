@@ -14,7 +14,7 @@ WORK = Path(os.environ.get("SONAR_WORK", PROJECT / "build" / "tests-cli")).resol
 SURVEY, OUT = WORK / "survey", WORK / "out"
 TRUTH = SURVEY / "truth"
 
-VERBS = ["info", "simulate", "calibrate", "run", "plan", "follow", "merge", "submit", "status", "integrate", "biomass", "propagate", "export", "score", "agree", "compare", "recipe", "render"]
+VERBS = ["info", "simulate", "calibrate", "run", "plan", "follow", "merge", "submit", "status", "check", "integrate", "biomass", "propagate", "export", "score", "agree", "compare", "recipe", "render"]
 SCHOOL_PINGS = (
     "observation,school_id,ping_index,time_utc,latitude,longitude,depth_m,range_m,bearing_deg,n_voxels,n_beams,n_fans,"
     "volume_m3,length_m,width_m,height_m,axis_deg,depth_min_m,depth_max_m,sv_mean_db,sv_p95_db,sv_max_db,backscatter_m2,"
@@ -29,7 +29,7 @@ SCHOOL_PINGS = (
     "mass_depth_m,"
     "speed_smoothed_mps,speed_smoothed_se_mps,course_smoothed_deg,vertical_speed_smoothed_mps,"
     "speed_water_smoothed_mps,course_water_smoothed_deg,relative_bearing_deg,ship_speed_mps,course_away_deg,"
-    "speed_away_mps,speed_away_se_mps,speed_away_water_mps,time_to_cpa_s,cpa_m,wake_distance_m").split(",")
+    "speed_away_mps,speed_away_se_mps,speed_away_water_mps,time_to_cpa_s,cpa_m,wake_distance_m,depth_error_m").split(",")
 SCHOOLS = (
     "observation,school_id,continues,first_time_utc,last_time_utc,n_pings,n_pings_whole,latitude,longitude,depth_m,"
     "volume_m3,volume_corrected_m3,length_m,width_m,height_m,sv_mean_db,sv_corrected_db,backscatter_m2,speed_mps,"
@@ -41,7 +41,7 @@ SCHOOLS = (
     "sv_kurtosis,core_edge_db,nasc_m2_nmi2,surface_distance_m,bottom_distance_m,horizontal_range_m,"
     "incidence_deg,diner_nb_across,diner_nb_height,"
     "course_se_deg,vertical_speed_se_mps,tortuosity,tortuosity_se,speed_water_mps,speed_water_se_mps,"
-    "course_water_deg,course_water_se_deg,current_east_mps,current_north_mps,current_se_mps").split(",")
+    "course_water_deg,course_water_se_deg,current_east_mps,current_north_mps,current_se_mps,depth_error_m").split(",")
 
 
 def run(*arguments, timeout=600, cache=WORK / "cache"):

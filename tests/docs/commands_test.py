@@ -17,8 +17,9 @@ import sonarx
 from sonarx import SURVEY, VERBS, WORK, Case
 
 PROJECT = Path(__file__).resolve().parent.parent.parent
-# Left out: what takes another program or another machine. tests/cluster hands surveys in to a real Slurm.
-ELSEWHERE = re.compile(r"^sonarx submit (?!.*--dry-run)" + ("" if shutil.which("ffmpeg") else r"|^sonarx render movie .*\.mp4")
+# Left out: what takes another program or another machine, or more schools than the tests' survey has (tests/cli/check_test.py).
+# tests/cluster hands surveys in to a real Slurm.
+ELSEWHERE = re.compile(r"^sonarx submit (?!.*--dry-run)|^sonarx check " + ("" if shutil.which("ffmpeg") else r"|^sonarx render movie .*\.mp4")
                        + ("" if movement_test.netCDF4 else r"|^sonarx run .*--currents"))
 # What the reader brings.
 BROUGHT = {"cast.csv": "depth_m,sound_speed_mps\n0,1485\n100,1478\n",

@@ -21,6 +21,7 @@
 #include "pipeline/recipe/json_parameters.h"
 #include "pipeline/recipe/transfer_function_json.h"
 #include "pipeline/survey/calibration_json.h"
+#include "pipeline/survey/cast_files.h"
 #include "pipeline/survey/currents_json.h"
 
 namespace sonar {
@@ -224,9 +225,7 @@ Result<void> take_sound_speed(Recipe& recipe, const std::string& value_or_path) 
     recipe.survey.sound_speed_profile.clear();
     return {};
   }
-  const auto table = read_csv(value_or_path);
-  if (!table) return pass_on(table);
-  auto profile = profile_from_table(*table);
+  auto profile = read_sound_profile(value_or_path);
   if (!profile) return pass_on(profile);
   recipe.survey.sound_speed_mps = 0.0;
   recipe.survey.sound_speed_profile = std::move(*profile);

@@ -11,6 +11,7 @@
 
 #include "base/result.h"
 #include "base/work.h"
+#include "geo/refraction.h"
 #include "pipeline/recipe/recipe.h"
 #include "pipeline/stages/known_pings.h"
 #include "pipeline/stages/load_volume.h"
@@ -57,12 +58,15 @@ class Engine {
   [[nodiscard]] const Recipe& recipe() const { return recipe_; }
   [[nodiscard]] const ObservationFiles& observation() const { return observation_; }
   [[nodiscard]] const SurveyFiles& survey() const { return survey_; }
-  /// What was recorded: NaN where a ping has no position. Roll and pitch are in it where beams are not stabilised.
+  /// What was recorded: NaN where a ping has no position. Roll and pitch are in it where beams are not stabilised, rays
+  /// where the recipe bends them.
   [[nodiscard]] Placement placement(std::int64_t ping_index) const;
   /// The same for following schools: gaps in the navigation are reckoned over.
   [[nodiscard]] const Placement& tracking_placement(std::int64_t ping_index) const {
     return reckoned_.pings[static_cast<std::size_t>(ping_index)];
   }
+  /// Of the recipe's profile, whether sound is bent along them or not; null = no profile.
+  [[nodiscard]] const std::shared_ptr<const Refraction>& rays() const { return rays_; }
   [[nodiscard]] const DeadReckoning& reckoned() const { return reckoned_; }
   /// Whether a ping shows nothing of the sea: no stage looks at it or compares others with it.
   [[nodiscard]] bool is_bad(std::int64_t ping_index) const {
@@ -120,6 +124,7 @@ class Engine {
   BeamFigures figures_;
   Sector sector_;
   CalibrationTables tables_;
+  std::shared_ptr<const Refraction> rays_;
   DeadReckoning reckoned_;
   KnownPings* known_;
   std::optional<PingKeys> keys_;

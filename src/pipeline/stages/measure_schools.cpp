@@ -60,6 +60,7 @@ MeasureInput input_of(const Engine& engine, const StagedPing& ping, double area)
   input.grid = &engine.grid();
   input.background = ping.background();
   input.placement = engine.placement(ping.ping_index);
+  input.rays = engine.rays();
   input.pulse_m = observation.sound_speed_mps * observation.pulse_length_s / 2.0;
   input.two_way_area = area;
   input.psi_error_db = engine.beam_figures().psi_error_db;

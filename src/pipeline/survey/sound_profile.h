@@ -3,20 +3,12 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <vector>
 
 #include "base/result.h"
+#include "geo/sound_ray.h"
 #include "io/csv_table.h"
 
 namespace sonar {
-
-/// One line of a sound speed profile.
-struct SoundSpeedAt {
-  double depth_m = 0.0;
-  double sound_speed_mps = 0.0;
-  friend bool operator==(const SoundSpeedAt&, const SoundSpeedAt&) = default;
-};
-using SoundProfile = std::vector<SoundSpeedAt>;  ///< by rising depth
 
 /// Speed at which sound travels from one depth to another: harmonic mean of the profile, linear between its lines, the
 /// first and the last holding beyond. The value there where both depths are one.

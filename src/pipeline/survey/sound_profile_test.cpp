@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -40,6 +41,20 @@ TEST(SoundProfile, TablesThatMakeNoSenseAreRefused) {
   EXPECT_EQ(profile_from_json(to_json(read(kTable).value())).value(), read(kTable).value());
   EXPECT_FALSE(profile_from_json(nlohmann::json::parse("[[0]]")));
   EXPECT_FALSE(profile_from_json(nlohmann::json::parse("[[0, 15]]")));
+}
+
+TEST(SoundProfile, RaysBendOnlyInAProfile) {
+  const test::TemporaryFolder folder;
+  folder.write("a.raw", test::small_file(3));
+  SurveyParams params;
+  params.bend_rays = true;
+  Work work(1);
+  const std::filesystem::path path = folder.path();
+  const auto refused = open_survey({&path, 1}, params, {}, IndexCache{}, work);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::bad_parameter);
+  params.sound_speed_profile = {{0.0, 1500.0}};
+  EXPECT_TRUE(open_survey({&path, 1}, params, {}, IndexCache{}, work));
 }
 
 // The law: ranges go as sound speed, spacing and what is taken off alike.

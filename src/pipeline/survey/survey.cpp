@@ -112,6 +112,10 @@ Result<void> check_params(const SurveyParams& survey, const NavigationParams& na
   if (auto valid = validate(survey); !valid) return valid;
   if (auto valid = check_sound_speed(survey.sound_speed_mps); !valid) return valid;
   if (auto valid = check_profile(survey.sound_speed_profile); !valid) return valid;
+  if (survey.bend_rays && survey.sound_speed_profile.empty()) {
+    return fail(ErrorCode::bad_parameter,
+                "survey.bend_rays: rays bend in a sound_speed_profile, and the recipe has none");
+  }
   return validate(navigation);
 }
 

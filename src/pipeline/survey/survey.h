@@ -38,6 +38,7 @@ struct SurveyParams {
   double grid_tolerance_deg = 0.05;
   bool use_passive_pings = false;
   double sound_speed_mps = 0.0;
+  bool bend_rays = false;
   SoundProfile sound_speed_profile{};  ///< stands in the recipe by content, as sound_speed_profile; empty = none
   friend bool operator==(const SurveyParams&, const SurveyParams&) = default;
 };
@@ -80,6 +81,10 @@ void describe(Visitor& v, SurveyParams& p) {
                    "takes the harmonic mean of a given profile down to the deepest beam, or the files' value. Set it "
                    "when the sonar ran with a wrong one.",
            .tier = Tier::basic});
+  v.field("bend_rays", p.bend_rays,
+          {.text = "Bend sound along its rays through the given profile, so that positions and depths follow them; "
+                   "otherwise paths are straight. Switch it on where depth_error_m of the schools is larger than what "
+                   "your depths may be wrong by."});
 }
 
 /// One file of the survey. The name may be that of a file that could not be opened; then error says why.

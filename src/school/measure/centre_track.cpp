@@ -20,6 +20,11 @@ TimedPlaces CentreTrack::part(std::size_t first, std::size_t last) const {
   return {part_of(places.t, first, last), part_of(places.x, first, last), part_of(places.y, first, last)};
 }
 
+bool CentreTrack::tells_speed(int min_pings, double min_span_s) const {
+  if (size() < static_cast<std::size_t>(std::max(min_pings, 3))) return false;
+  return span_s() >= min_span_s && span_s() > 0.0;
+}
+
 CentreTrack uncut_track(std::span<const SchoolPingRow> rows) {
   CentreTrack track;
   for (std::size_t i = 0; i < rows.size(); ++i) {

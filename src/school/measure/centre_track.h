@@ -22,6 +22,8 @@ struct CentreTrack {
 
   [[nodiscard]] std::size_t size() const { return rows.size(); }
   [[nodiscard]] double span_s() const { return rows.empty() ? 0.0 : places.t.back() - places.t.front(); }
+  /// Whether it is long enough for a speed.
+  [[nodiscard]] bool tells_speed(int min_pings, double min_span_s) const;
   /// Places [first, last).
   [[nodiscard]] TimedPlaces part(std::size_t first, std::size_t last) const;
 };

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <numbers>
 
 #include "base/check.h"
@@ -21,6 +22,14 @@
 namespace sonar {
 namespace {
 
+/// How much deeper sound from there comes from than a straight path says.
+double depth_error_m(const Point<Sonar>& centre, Placement placement, const std::shared_ptr<const Refraction>& rays) {
+  placement.rays = nullptr;
+  const double straight_m = levelled(centre, placement).z;
+  placement.rays = rays;
+  return levelled(centre, placement).z - straight_m;
+}
+
 void measure_place(const MeasureInput& ping, const MaskShape& shape, SchoolPingRow& row) {
   const Point<Sonar> centre = levelled(shape.centre, ping.placement);
   const Point<Enu> place = to_enu(centre, ping.placement.heading_rad);
@@ -28,6 +37,7 @@ void measure_place(const MeasureInput& ping, const MaskShape& shape, SchoolPingR
   row.latitude = where.latitude_deg;
   row.longitude = where.longitude_deg;
   row.depth_m = ping.placement.transducer_depth_m + centre.z;
+  if (ping.rays) row.depth_error_m = depth_error_m(shape.centre, ping.placement, ping.rays);
   row.range_m = norm(shape.centre);
   row.bearing_deg = wrap_360(deg_from_rad(std::atan2(place.x, place.y)));
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 
 #include "base/array.h"
@@ -35,8 +36,9 @@ struct MeasureInput {
   const BeamGrid* grid = nullptr;
   Background background;
   Placement placement;
-  double pulse_m = 0.0;       ///< extent of the pulse along range, c tau / 2
-  double two_way_area = 1.0;  ///< of the beams: two_way_beam.h
+  std::shared_ptr<const Refraction> rays;  ///< of a known profile, bent along or not; null = none known
+  double pulse_m = 0.0;                    ///< extent of the pulse along range, c tau / 2
+  double two_way_area = 1.0;               ///< of the beams: two_way_beam.h
   /// [fan][beam] dB: echo as calibrated over what another equivalent beam angle would make of it, and standard error of
   /// the calibration; empty = not known.
   std::span<const double> psi_error_db;

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <vector>
 
 #include "base/units.h"
 #include "geo/geodesic.h"
+#include "geo/refraction.h"
 #include "school/measure/correct_sizes.h"
 #include "school/test_ping.h"
 
@@ -385,6 +387,26 @@ TEST(Measure, MirroredMountingMirrorsTheSchool) {
   EXPECT_NEAR(a.length_m, b.length_m, 1e-6);
   EXPECT_NEAR(std::remainder(a.axis_deg + b.axis_deg, 180.0), 0.0, 1e-6);
   EXPECT_NEAR(a.volume_corrected_m3 / b.volume_corrected_m3, 1.0, 1e-6);
+}
+
+// By hand: level to 100 m, sound in c = 1500 - 0.1 z comes from (100 m)^2 g / 2c = 0.33 m deeper. Straight paths only tell it;
+// where they are bent, the depth follows and the error stays what it is. Without a profile it is unknown.
+TEST(Measure, ToldAndBentRaysGiveOneDepth) {
+  Ping ping;
+  ping.add(ellipsoid(100.0, -1.0, 260.0));
+  EXPECT_TRUE(std::isnan(ping.measured(1, false).depth_error_m));
+  ping.rays = std::make_shared<const Refraction>(SoundProfile{{0, 1500}, {200, 1480}}, 7.0, 1499.3, 400.0);
+  const SchoolPingRow straight = ping.measured(1, false);
+  EXPECT_NEAR(straight.depth_error_m, straight.range_m * straight.range_m * 0.1 / (2 * 1499.3), 0.01);
+  EXPECT_GT(straight.depth_error_m, 0.3);
+  ping.placement.rays = ping.rays;
+  const SchoolPingRow bent = ping.measured(1, false);
+  EXPECT_NEAR(bent.depth_m, straight.depth_m + straight.depth_error_m, 1e-9);
+  EXPECT_EQ(bent.depth_error_m, straight.depth_error_m);
+  EXPECT_GT(bent.depth_max_m, straight.depth_max_m + 0.2);
+  EXPECT_EQ(bent.range_m, straight.range_m);
+  EXPECT_EQ(bent.backscatter_m2, straight.backscatter_m2);
+  EXPECT_EQ(bent.volume_m3, straight.volume_m3);
 }
 
 }  // namespace

@@ -93,8 +93,7 @@ void summarise_water(const CentreTrack& track, std::span<const SchoolPingRow> ro
 void summarise_motion(std::span<const SchoolPingRow> rows, const SummariseParams& params, const WaterCurrents* water,
                       SchoolRow& out) {
   const CentreTrack track = uncut_track(rows);
-  if (track.size() < static_cast<std::size_t>(std::max(params.min_speed_pings, 3))) return;
-  if (track.span_s() < params.min_speed_span_s || !(track.span_s() > 0.0)) return;
+  if (!track.tells_speed(params.min_speed_pings, params.min_speed_span_s)) return;
   const LineFit line = fit_line(track.places.t, track.places.x, track.places.y);
   const Speed speed = speed_of(line);
   out.speed_mps = speed.speed_mps;
@@ -189,6 +188,7 @@ SchoolRow summarise(std::span<const SchoolPingRow> rows, const SummariseParams& 
   const Rows& used = whole.empty() ? all : whole;
   summarise_place(used, out);
   out.depth_m = mean_of(used, &SchoolPingRow::depth_m);
+  out.depth_error_m = mean_of(used, &SchoolPingRow::depth_error_m);
   out.volume_m3 = median_of(used, &SchoolPingRow::volume_m3);
   out.length_m = median_of(used, &SchoolPingRow::length_m);
   out.width_m = median_of(used, &SchoolPingRow::width_m);

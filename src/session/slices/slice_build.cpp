@@ -76,6 +76,7 @@ SlicePing slice_ping(const OpenObservation& observation, std::int64_t ping_index
   ping.heading_rad = rad_from_deg(navigation.heading_deg);
   ping.transducer_depth_m = navigation.transducer_depth_m;
   ping.frequency_hz = observation.grid().frequency_hz;
+  ping.rays = observation.rays();
   return ping;
 }
 

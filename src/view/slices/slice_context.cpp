@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/units.h"
+#include "geo/refraction.h"
 #include "view/label_room.h"
 #include "view/shapes.h"
 #include "view/slices/plane_outline.h"
@@ -99,6 +100,23 @@ class Context {
       const double angle = rad_from_deg(degrees - offset);
       lines.parts.push_back({{pixel(fan.at(angle, 0.0)), pixel(fan.at(angle, fan.far_m * fan.shown))}, false});
       label(pixel(fan.at(angle, beyond)), tick_text(bearings ? wrap_360(degrees) : degrees, ticks.decimals) + "\u00B0");
+    }
+    frame_->items.emplace_back(std::move(lines));
+  }
+
+  /// Along which way sound comes at these elevations, to where it is when straight paths end.
+  void bent_rays(const Fan& fan, const Refraction& refraction) {
+    const Ticks ticks = degree_ticks(deg_from_rad(fan.first_rad), deg_from_rad(fan.last_rad), 7);
+    PathItem lines;
+    lines.stroke = {theme_->track, theme_->line_px, {}};
+    for (const double degrees : ticks.major) {
+      PathItem::Part ray;
+      for (int i = 0; i <= kArcSteps; ++i) {
+        const double range_m = fan.far_m * i / kArcSteps;
+        const Point<Sonar> at = refraction.bent(Sector::direction(rad_from_deg(degrees), 0.0) * range_m);
+        ray.points.push_back(pixel({at.x, at.z}));
+      }
+      lines.parts.push_back(std::move(ray));
     }
     frame_->items.emplace_back(std::move(lines));
   }
@@ -234,6 +252,7 @@ void add_slice_context(FrameDescription& frame, const SliceMap& map, PixelPoint 
     if (style.rings) {
       const Fan fan = elevation_fan(sector);
       context.rays(fan, 0.0, false);
+      if (ping.rays) context.bent_rays(fan, *ping.rays);
       context.rings(fan);
       context.outline(fan);
       context.words();

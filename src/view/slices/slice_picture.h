@@ -65,7 +65,8 @@ struct SlicePing {
   TimeNs time = 0;
   double heading_rad = std::numeric_limits<double>::quiet_NaN();  ///< NaN = unknown: no north arrow
   double transducer_depth_m = 0.0;
-  std::vector<double> frequency_hz;  ///< [fan], for the title; may be empty
+  std::vector<double> frequency_hz;          ///< [fan], for the title; may be empty
+  std::shared_ptr<const Refraction> rays{};  ///< drawn in the side slice with its rings; null = no profile is known
 };
 
 /// What a slice's key tells beside the looks of flagged samples.

@@ -5,7 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <variant>
+#include <vector>
 
+#include "geo/refraction.h"
 #include "view/school_look.h"
 #include "view/slices/slice_context.h"
 #include "view/slices/slice_example.h"
@@ -370,6 +374,37 @@ TEST(SlicePicture, LabelsOfRingsAndBearingsAreDrawnOverTheirLines) {
     if (text != nullptr) first_word = std::min(first_word, i);
   }
   EXPECT_LT(last_line, first_word);
+}
+
+// Rays of a known profile begin at the transducer and end where sound is when straight paths end; nothing else changes.
+TEST(SlicePicture, TheSideShowsBentRays) {
+  const SliceMap map(hand_sector(), SliceView{SideSlice{3}}, {0, -200, 400, 200}, kSize);  // a pixel a metre
+  SlicePing ping;
+  FrameDescription straight;
+  add_slice_context(straight, map, {}, ping, {}, light_theme(kSize));
+  const RangeAxis& range = map.sector().range();
+  const double far_m = range.range_m(range.count - 0.5);
+  const SoundProfile profile{{0, 1500}, {500, 1400}};
+  ping.rays = std::make_shared<const Refraction>(profile, 7.0, 1500.0, far_m);
+  FrameDescription bent;
+  add_slice_context(bent, map, {}, ping, {}, light_theme(kSize));
+  ASSERT_EQ(bent.items.size(), straight.items.size() + 1);
+  const PixelPoint from = map.pixel_of(0.0, 0.0);
+  std::size_t rays = 0;
+  for (const auto& item : bent.items) {
+    const auto* path = std::get_if<PathItem>(&item);
+    if (path == nullptr) continue;
+    for (const PathItem::Part& part : path->parts) {
+      if (part.points.size() < 50 || part.points.front() != from) continue;
+      ++rays;
+      const PixelPoint next = part.points[1];
+      SoundRay ray(profile, 7.0, -std::atan2(next.y - from.y, next.x - from.x));
+      ray.advance(far_m / 1500.0);
+      EXPECT_NEAR(part.points.back().x - from.x, ray.place().distance_m, 0.3);
+      EXPECT_NEAR(part.points.back().y - from.y, ray.place().depth_m - 7.0, 0.3);
+    }
+  }
+  EXPECT_GT(rays, 1U);
 }
 
 TEST(SlicePicture, BadRequestsAreRefusedInOneLine) {
