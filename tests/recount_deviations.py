@@ -68,7 +68,7 @@ def compare_table(path, rows, deviations):
                 value = numbers[key(row)[:2]]
             if isinstance(value, str):
                 same = text == value
-            elif name in ("latitude", "longitude"):
+            elif name.endswith(("latitude", "longitude")):  # mass_latitude too
                 same = (text == "") == math.isnan(value) and (text == "" or abs(float(text) - value) <= 5.1e-9)
             else:
                 same = (math.isnan(float(value)) and text == "") or (text != "" and float(text) == value)

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <charconv>
+#include <chrono>
 #include <cstddef>
 #include <utility>
 
@@ -50,8 +51,10 @@ std::optional<std::array<int, 3>> take_date(std::string_view& text) {
     text.remove_prefix(static_cast<std::size_t>(end - text.data()));
   }
   const auto [year, month, day] = date;
-  if (year < 1800 || year > 2200 || month < 1 || month > 12 || day < 1 || day > 31) return std::nullopt;
-  return date;
+  if (year < 1800 || year > 2200 || month < 1 || day < 1) return std::nullopt;
+  const std::chrono::year_month_day named{std::chrono::year{year}, std::chrono::month{static_cast<unsigned>(month)},
+                                          std::chrono::day{static_cast<unsigned>(day)}};
+  return named.ok() ? std::optional(date) : std::nullopt;
 }
 
 /// Hours, and minutes and seconds where they are told.
@@ -61,7 +64,7 @@ std::optional<double> take_clock_s(std::string_view& text) {
   for (int i = 0; i < 3; ++i) {
     if (i > 0 && !take(text, ':')) break;
     const auto number = take_number(text);
-    if (!number || *number > 60.0) return std::nullopt;
+    if (!number || *number > (i == 0 ? 24.0 : 60.0)) return std::nullopt;
     sum += *number * unit;
     unit /= 60.0;
   }

@@ -108,11 +108,12 @@ class CurrentFile {
     const std::string units = in_.text_of(root(), name, "units");
     const auto axis = cf::time_axis(units);
     if (!axis) return refuse_unit(name, units, "days since 2009-01-01 00:00:00, or hours, minutes, seconds");
-    constexpr double kMost_s = 8e9;  // 250 years: nothing that TimeNs cannot hold
+    constexpr double kMost_s = 7'258'118'400.0;  // 2200, as of raw files: what a recipe can tell, and TimeNs can hold
+    const double origin_s = static_cast<double>(axis->origin) / static_cast<double>(kSecondNs);
     for (const double value : numbers(name, in_.size(root(), name))) {
-      const double seconds = value * axis->unit_s;
-      const bool known = std::abs(seconds) < kMost_s;
-      time_.push_back(known ? axis->origin + static_cast<TimeNs>(std::llround(seconds * 1e3)) * (kSecondNs / 1000) : 0);
+      const double seconds = origin_s + value * axis->unit_s;
+      const bool known = seconds > 0.0 && seconds < kMost_s;
+      time_.push_back(known ? static_cast<TimeNs>(std::llround(seconds * 1e3)) * (kSecondNs / 1000) : 0);
     }
   }
 
@@ -139,7 +140,17 @@ class CurrentFile {
       in_.refuse(ErrorCode::format, fmt::format("'{}': expected values over time and depth alone", east));
     }
     time_first_ = before == 1;
+    axes_ = axes_of(east);
   }
+
+  /// Dimensions along which a variable has more than one value.
+  std::vector<std::string> axes_of(const std::string& name) {
+    std::vector<std::string> axes = in_.dimensions_of(root(), name);
+    std::erase_if(axes, [&](const std::string& one) { return in_.dimension(root(), one) == 1; });
+    return axes;
+  }
+  /// Whether a variable's values are as many as those of the velocity east, in the same order.
+  bool is_parallel(const std::string& name) { return axes_of(name) == axes_; }
 
   [[nodiscard]] std::size_t place(std::size_t time, std::size_t bin) const {
     return time_first_ ? time * bins_ + bin : bin * times() + time;
@@ -151,7 +162,7 @@ class CurrentFile {
     constexpr std::array<std::string_view, 5> kMetres{"m", "metre", "metres", "meter", "meters"};
     if (std::find(kMetres.begin(), kMetres.end(), unit) == kMetres.end()) return refuse_unit(name, unit, "m");
     const std::size_t count = in_.size(root(), name);
-    if (in_.ok() && count != bins_ && count != values()) {
+    if (in_.ok() && count != bins_ && !is_parallel(name)) {
       return in_.refuse(ErrorCode::format,
                         fmt::format("'{}' has {} values: expected {}, or that for each time", name, count, bins_));
     }
@@ -175,6 +186,9 @@ class CurrentFile {
       refuse_unit(name, unit, "m s-1 or cm s-1");
       return {};
     }
+    if (!is_parallel(name)) {
+      in_.refuse(ErrorCode::format, fmt::format("'{}': expected values over {}", name, fmt::join(axes_, ", ")));
+    }
     std::vector<double> out = numbers(name, values());
     for (double& value : out) value *= slow ? 0.01 : 1.0;
     return out;
@@ -193,7 +207,7 @@ class CurrentFile {
 
   void read_flags() {
     const std::string name = in_.ok() ? find(kFlag) : std::string{};
-    if (!name.empty() && in_.size(root(), name) == values()) flags_ = numbers(name, values());
+    if (!name.empty() && is_parallel(name)) flags_ = numbers(name, values());
   }
 
   [[nodiscard]] bool known(std::size_t at, double depth_m) const {
@@ -243,7 +257,8 @@ class CurrentFile {
 
   netcdf::Reader in_;
   std::vector<std::string> names_;
-  std::vector<TimeNs> time_;  ///< 0 = not told
+  std::vector<TimeNs> time_;       ///< 0 = not told
+  std::vector<std::string> axes_;  ///< of the velocity east
   std::size_t bins_ = 0;
   bool time_first_ = true;
   std::vector<double> depth_m_;

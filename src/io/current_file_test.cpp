@@ -29,6 +29,7 @@ struct Made {
   std::string east_standard_name;
   bool depth_by_time = true;
   bool bins_first = false;
+  bool north_turned = false;                 ///< over bins and times where east is over times and bins
   std::vector<double> time = {10.25, 10.5};  // 2009-01-11 06:00 and 12:00
   std::vector<float> u = {0.125F, 0.25F, 1e38F, 0.5F, -0.75F, 0.0F};
   std::vector<float> v = {-0.125F, -0.25F, 1e38F, 0.0F, 0.5F, 0.25F};
@@ -45,7 +46,8 @@ std::filesystem::path written(const std::filesystem::path& path, const Made& mad
   const float fill = 1e38F;
   const int u = w.variable(w.root(), made.east, made.velocity_units, grid, made.u, netcdf::Storage::plain, &fill);
   if (!made.east_standard_name.empty()) w.attribute(w.root(), u, "standard_name", made.east_standard_name);
-  w.variable(w.root(), made.north, made.velocity_units, grid, made.v, netcdf::Storage::plain, &fill);
+  w.variable(w.root(), made.north, made.velocity_units, made.north_turned ? std::vector{bin, time} : grid, made.v,
+             netcdf::Storage::plain, &fill);
   w.variable(w.root(), "depth", "meter", made.depth_by_time ? grid : std::vector{bin}, made.depth);
   w.variable(w.root(), "lat", "degrees_north", {time}, std::vector{60.0, 60.1});
   w.variable(w.root(), "lon", "degrees_east", {time}, std::vector{184.0, -3.5});
@@ -131,6 +133,25 @@ TEST_F(CurrentFile, RefusesInOneLineWhatItDoesNotKnow) {
   EXPECT_THAT(refused(made), HasSubstr("adcp.nc"));
 }
 
+// Days that no recipe can tell, and no clock of 64 bits: as fill values that are not declared.
+TEST_F(CurrentFile, TimesOutOfAllReasonAreLeftOut) {
+  for (const double days : {1e5, -1e4, 9e4, 1e30, -1e30}) {
+    Made made;
+    made.time_units = "days since 2199-12-01";
+    made.time = {10.0, days};
+    const auto found = read(made);
+    ASSERT_TRUE(found) << to_line(found.error());
+    EXPECT_EQ(found->size(), days == -1e4 ? 2U : 1U) << days;
+    EXPECT_EQ(found->back().time, time_from_calendar(2199, 12, 11, 0.0));
+  }
+}
+
+TEST_F(CurrentFile, VelocitiesOverOtherAxesAreRefused) {
+  Made made;
+  made.north_turned = true;
+  EXPECT_THAT(refused(made), HasSubstr("'v': expected values over time, depth_cell"));
+}
+
 TEST_F(CurrentFile, SurvivesDamage) {
   const auto path = written(folder_.path() / "adcp.nc", {});
   std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
@@ -153,7 +174,8 @@ TEST(CfTime, ReadsUnits) {
   EXPECT_EQ(at("days since 1950-01-01T00:00:00Z", 7305), time_from_calendar(1970, 1, 1, 0)) << "20 years, 5 leap days";
   for (const char* bad :
        {"", "days", "days since", "years since 2000-01-01", "days since yesterday", "days since 2000-13-01",
-        "days since 2000-01-01 00:00:00 +2:00", "days since 2000-01-01 25:xx"}) {
+        "days since 2000-01-01 00:00:00 +2:00", "days since 2000-01-01 25:xx", "days since 2000-01-01 25:00",
+        "days since 2001-02-29", "days since 2000-400-01"}) {
     EXPECT_FALSE(cf::time_axis(bad)) << bad;
   }
 }

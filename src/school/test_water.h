@@ -29,6 +29,11 @@ inline double uniform(std::uint64_t seed) {
   return (static_cast<double>(hash64(seed) >> 12) + 0.5) / 4503599627370496.0;
 }
 
+/// Standard normal.
+inline double normal(std::uint64_t seed) {
+  return std::sqrt(-2.0 * std::log(uniform(2 * seed))) * std::cos(2.0 * std::numbers::pi * uniform(2 * seed + 1));
+}
+
 inline constexpr double kVerticalWidth_deg = 6.6;
 inline constexpr double kHorizontalWidth_deg = 3.4;
 

@@ -25,6 +25,10 @@ bool CentreTrack::tells_speed(int min_pings, double min_span_s) const {
   return span_s() >= min_span_s && span_s() > 0.0;
 }
 
+bool CentreTrack::tells_line(std::size_t first, std::size_t last) const {
+  return last >= first + 3 && places.t[last - 1] > places.t[first];
+}
+
 CentreTrack uncut_track(std::span<const SchoolPingRow> rows) {
   CentreTrack track;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -52,8 +56,11 @@ std::vector<std::pair<std::size_t, std::size_t>> stretches(const CentreTrack& tr
   const std::vector<double>& t = track.places.t;
   std::size_t first = 0;
   for (double k = 1.0; k <= count; ++k) {
-    const auto end = std::lower_bound(t.begin(), t.end(), t.front() + span_s * k / count);
-    const std::size_t last = k == count ? t.size() : static_cast<std::size_t>(end - t.begin());
+    std::size_t last = t.size();
+    if (k < count) {
+      const auto end = std::lower_bound(t.begin(), t.end(), t.front() + span_s * k / count);
+      last = static_cast<std::size_t>(end - t.begin());
+    }
     out.emplace_back(first, last);
     first = last;
   }

@@ -24,6 +24,8 @@ struct CentreTrack {
   [[nodiscard]] double span_s() const { return rows.empty() ? 0.0 : places.t.back() - places.t.front(); }
   /// Whether it is long enough for a speed.
   [[nodiscard]] bool tells_speed(int min_pings, double min_span_s) const;
+  /// Whether places [first, last) are three or more, not all at one time: then there is a line through them, and its error.
+  [[nodiscard]] bool tells_line(std::size_t first, std::size_t last) const;
   /// Places [first, last).
   [[nodiscard]] TimedPlaces part(std::size_t first, std::size_t last) const;
 };

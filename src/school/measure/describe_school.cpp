@@ -12,9 +12,9 @@
 #include "geo/geodesic.h"
 #include "school/measure/echo_spread.h"
 #include "school/measure/mask_inside.h"
-#include "school/measure/mask_surface.h"
 #include "school/measure/nuclei.h"
 #include "school/measure/oriented_box.h"
+#include "school/measure/surface_area.h"
 #include "school/runs.h"
 
 namespace sonar {

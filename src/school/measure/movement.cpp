@@ -33,11 +33,9 @@ std::pair<std::size_t, std::size_t> window_about(const CentreTrack& track, std::
 
 /// Scatter about lines of one window each; empty where none has three places.
 std::optional<Scatter> scatter_of(const CentreTrack& track, double window_s) {
-  if (track.size() < 3) return std::nullopt;
   std::vector<TimedPlaces> pieces;
   for (const auto& [first, last] : stretches(track, window_s)) {
-    if (last - first >= 3 && track.places.t[last - 1] > track.places.t[first])
-      pieces.push_back(track.part(first, last));
+    if (track.tells_line(first, last)) pieces.push_back(track.part(first, last));
   }
   return pieces.empty() ? std::nullopt : std::optional(common_scatter(pieces));
 }
@@ -76,7 +74,7 @@ class Velocities {
   [[nodiscard]] std::optional<Now> at(std::size_t i) const {
     if (!scatter_) return std::nullopt;
     const auto [first, last] = window_about(track_, i, window_s_);
-    if (last - first < 3 || !(track_.places.t[last - 1] > track_.places.t[first])) return std::nullopt;
+    if (!track_.tells_line(first, last)) return std::nullopt;
     const TimedPlaces places = track_.part(first, last);
     Now now{fit_line(places, *scatter_), 0.0, {}};
     const std::vector<double> depths(track_.depth_m.begin() + static_cast<std::ptrdiff_t>(first),

@@ -14,6 +14,7 @@ struct OrientedBox {
   double bearing_deg = 0.0;  ///< of the longest, clockwise from true north, [0, 180)
   double tilt_deg = 0.0;     ///< elevation of its end on that bearing, positive up, [-90, 90]
 };
+/// Paths are taken for straight, whether or not the placement has rays.
 /// mask  not empty
 /// axes  of its covariance, sonar frame
 [[nodiscard]] OrientedBox oriented_box(const PingMask& mask, const PrincipalAxes& axes, const Sector& sector,

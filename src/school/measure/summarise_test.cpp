@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <vector>
 
 #include "base/units.h"
@@ -129,12 +128,6 @@ TEST(Summarise, DescriptorsAreMediansAndLevelsLinearMeans) {
   EXPECT_TRUE(std::isnan(row.incidence_deg));
 }
 
-/// Standard normal numbers from an integer hash.
-double normal(std::uint64_t seed) {
-  return std::sqrt(-2.0 * std::log(test::uniform(2 * seed))) *
-         std::cos(2.0 * std::numbers::pi * test::uniform(2 * seed + 1));
-}
-
 /// Centres of a school of known speed, seen with an error of 4 m each way whose correlation from ping to ping is given.
 std::vector<SchoolPingRow> wandering(int pings, double speed_mps, double correlation, std::uint64_t track) {
   std::vector<SchoolPingRow> rows = swimming(pings, {60, 4}, 0.0);
@@ -143,7 +136,8 @@ std::vector<SchoolPingRow> wandering(int pings, double speed_mps, double correla
     const double before = i == 0 ? 0.0 : correlation;
     const std::uint64_t seed = (track * 1000 + static_cast<std::uint64_t>(i)) * 2;
     const double fresh_m = 4.0 * std::sqrt(1.0 - before * before);
-    off = Point<Enu>{before * off.x + fresh_m * normal(seed), before * off.y + fresh_m * normal(seed + 1), 0.0};
+    off = Point<Enu>{before * off.x + fresh_m * test::normal(seed), before * off.y + fresh_m * test::normal(seed + 1),
+                     0.0};
     const double path_m = speed_mps * 5.0 * i;
     const Geographic at = to_geographic(Point<Enu>{0.6 * path_m + off.x, 0.8 * path_m + off.y, 0.0}, {60, 4});
     rows[static_cast<std::size_t>(i)].latitude = at.latitude_deg;

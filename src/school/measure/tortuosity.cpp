@@ -11,7 +11,7 @@ namespace sonar {
 Tortuosity tortuosity(const CentreTrack& track, double window_s) {
   std::vector<TimedPlaces> pieces;
   for (const auto& [first, last] : stretches(track, window_s)) {
-    if (last - first < 3) return {};
+    if (!track.tells_line(first, last)) return {};
     pieces.push_back(track.part(first, last));
   }
   if (pieces.size() < 2) return {};

@@ -15,12 +15,6 @@
 namespace sonar {
 namespace {
 
-/// Standard normal numbers from an integer hash.
-double normal(std::uint64_t seed) {
-  return std::sqrt(-2.0 * std::log(test::uniform(2 * seed))) *
-         std::cos(2.0 * std::numbers::pi * test::uniform(2 * seed + 1));
-}
-
 /// A ping every 5 s; place (metres east and north) by time.
 CentreTrack track_of(int pings, const std::function<Point<Enu>(double)>& place, double noise_m = 0.0,
                      std::uint64_t seed = 0) {
@@ -30,7 +24,7 @@ CentreTrack track_of(int pings, const std::function<Point<Enu>(double)>& place, 
     row.ping_index = i;
     row.time_utc = 1'600'000'000 * kSecondNs + i * 5 * kSecondNs;
     const std::uint64_t number = 2 * (seed * 1000 + static_cast<std::uint64_t>(i));
-    const Point<Enu> off{noise_m * normal(number), noise_m * normal(number + 1), 0.0};
+    const Point<Enu> off{noise_m * test::normal(number), noise_m * test::normal(number + 1), 0.0};
     const Geographic at = to_geographic(place(5.0 * i) + off, {60, 4});
     row.latitude = at.latitude_deg;
     row.longitude = at.longitude_deg;
@@ -107,6 +101,9 @@ TEST(Tortuosity, UnknownWhereItIsNoFigure) {
   EXPECT_TRUE(std::isnan(tortuosity(track_of(11, ahead), 30.0).ratio)) << "one window";
   EXPECT_TRUE(std::isnan(tortuosity(track_of(40, ahead), 10.0).ratio)) << "two places a window";
   EXPECT_TRUE(std::isnan(tortuosity(CentreTrack{}, 30.0).ratio));
+  CentreTrack stopped = track_of(40, ahead);
+  for (std::size_t i = 0; i < 8; ++i) stopped.places.t[i] = 0.0;
+  EXPECT_TRUE(std::isnan(tortuosity(stopped, 30.0).ratio)) << "a clock that stood still for the first window";
 }
 
 }  // namespace

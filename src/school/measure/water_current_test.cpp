@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <vector>
 
 #include "base/units.h"
@@ -57,12 +56,6 @@ TEST(CurrentAt, TakesNoProfileFromFarAwayNorOneThatDoesNotReach) {
   EXPECT_TRUE(current_at(placeless, kStart, kHere, 20, {})) << "a profile without a place holds everywhere";
 }
 
-/// Standard normal numbers from an integer hash.
-double normal(std::uint64_t seed) {
-  return std::sqrt(-2.0 * std::log(test::uniform(2 * seed))) *
-         std::cos(2.0 * std::numbers::pi * test::uniform(2 * seed + 1));
-}
-
 // 200 profiles of 20 bins, noise 0.05 m/s each way on a current that rises evenly, which is no noise.
 TEST(CurrentNoise, IsWhatWasPutIn) {
   CurrentProfiles profiles;
@@ -71,7 +64,8 @@ TEST(CurrentNoise, IsWhatWasPutIn) {
     for (std::uint64_t k = 0; k < 20; ++k) {
       const std::uint64_t seed = 2 * (i * 100 + k);
       const double rising = 0.002 * static_cast<double>(i);
-      one.bins.push_back({10.0 + 8.0 * static_cast<double>(k), rising + 0.05 * normal(seed), 0.05 * normal(seed + 1)});
+      one.bins.push_back(
+          {10.0 + 8.0 * static_cast<double>(k), rising + 0.05 * test::normal(seed), 0.05 * test::normal(seed + 1)});
     }
     profiles.push_back(one);
   }

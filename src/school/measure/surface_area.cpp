@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "school/measure/mask_surface.h"
+#include "school/measure/surface_area.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "school/measure/mask_surface.h"
+#include "school/measure/surface_area.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ PingMask ball(const Sector& sector, const Point<Sonar>& centre, double radius_m)
 }
 
 // Faces of the cells themselves would be half as much again.
-TEST(MaskSurface, ABallOfFiveBeamsOrMoreHasItsSphere) {
+TEST(SurfaceArea, ABallOfFiveBeamsOrMoreHasItsSphere) {
   const Sector sector = ms70();
   for (const double range_m : {60.0, 130.0, 200.0}) {
     for (const double across : {5.0, 8.0, 12.0}) {
@@ -37,7 +37,7 @@ TEST(MaskSurface, ABallOfFiveBeamsOrMoreHasItsSphere) {
 }
 
 // Prolate and oblate ones have surfaces in closed form; they lie level, and turned towards the beam by half a right angle.
-TEST(MaskSurface, EllipsoidsOfRevolution) {
+TEST(SurfaceArea, EllipsoidsOfRevolution) {
   const Sector sector = ms70();
   const double a = 30.0;
   const double c = 12.0;
@@ -64,7 +64,7 @@ TEST(MaskSurface, EllipsoidsOfRevolution) {
 }
 
 // A half ring of a round tube: 2 pi^2 R r of a whole one, halved, and the two ends.
-TEST(MaskSurface, ABentTube) {
+TEST(SurfaceArea, ABentTube) {
   const Sector sector = ms70();
   const Point<Sonar> centre = towards(80.0);
   const double ring = 25.0;
@@ -78,7 +78,7 @@ TEST(MaskSurface, ABentTube) {
 }
 
 // The same cells in a sector twice as far and twice as coarse along range.
-TEST(MaskSurface, GrowsAsTheSquareOfTheRange) {
+TEST(SurfaceArea, GrowsAsTheSquareOfTheRange) {
   const Sector sector = ms70();
   const RangeAxis axis = sector.range();
   const Sector doubled = test::grid().sector({2.0 * axis.first_m, 2.0 * axis.spacing_m, axis.count});
@@ -88,7 +88,7 @@ TEST(MaskSurface, GrowsAsTheSquareOfTheRange) {
 }
 
 // A slab of one fan: both sides count, though they lie in the same beams.
-TEST(MaskSurface, AThinLayerHasTwoSides) {
+TEST(SurfaceArea, AThinLayerHasTwoSides) {
   const Sector sector = ms70();
   PingMask layer;
   for (int beam = 4; beam < 20; ++beam) layer.runs.push_back({10 * 25 + beam, 300, 100});
