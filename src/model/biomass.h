@@ -21,7 +21,7 @@ struct BiomassRow {
   std::int64_t n_pings_whole = 0;
   double depth_m = kUnknown;
   double course_deg = kUnknown;
-  double incidence_deg = kUnknown;
+  double aspect_deg = kUnknown;
   double backscatter_m2 = kUnknown;
   double ts_mean_db = kUnknown;
   double ts_strongest_db = kUnknown;
@@ -50,7 +50,7 @@ void columns(Visitor& v, BiomassRow& r) {
   v("n_pings_whole", "1", r.n_pings_whole);
   v("depth_m", "m", r.depth_m);
   v("course_deg", "degrees", r.course_deg);
-  v("incidence_deg", "degrees", r.incidence_deg);
+  v("aspect_deg", "degrees", r.aspect_deg);
   v("backscatter_m2", "m2", r.backscatter_m2);
   v("ts_mean_db", "dB re 1 m2", r.ts_mean_db);
   v("ts_strongest_db", "dB re 1 m2", r.ts_strongest_db);
@@ -77,7 +77,7 @@ struct BiomassPingRow {
   std::int64_t used = 0;
   double range_m = kUnknown;
   double depth_m = kUnknown;
-  double incidence_deg = kUnknown;
+  double aspect_deg = kUnknown;
   double sv_mean_db = kUnknown;
   double backscatter_m2 = kUnknown;
   double ts_mean_db = kUnknown;
@@ -93,7 +93,7 @@ void columns(Visitor& v, BiomassPingRow& r) {
   v("used", "1", r.used);
   v("range_m", "m", r.range_m);
   v("depth_m", "m", r.depth_m);
-  v("incidence_deg", "degrees", r.incidence_deg);
+  v("aspect_deg", "degrees", r.aspect_deg);
   v("sv_mean_db", "dB re 1 m-1", r.sv_mean_db);
   v("backscatter_m2", "m2", r.backscatter_m2);
   v("ts_mean_db", "dB re 1 m2", r.ts_mean_db);

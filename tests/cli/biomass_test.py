@@ -72,7 +72,7 @@ class Biomass(Case):
             writer.writeheader()
             writer.writerow({**table[0], "name": "mine", "b_db": "-60", "source": "me"})
         self.assertIn("mine: herring, TS = 20 log10 L - 60 dB", self.biomass("--ts-table", own, "--ts", "mine"))
-        self.assertIn("incidence_deg", header(self.out / "biomass_pings.csv"))
+        self.assertIn("aspect_deg", header(self.out / "biomass_pings.csv"))
 
     def test_bad_input_is_named(self):
         self.one_line_error("biomass", self.out, "--ts", "cod", code=2, names="--lengths")

@@ -100,7 +100,7 @@ void take_schools(std::vector<NumberedSchool>&& schools, Biomass& out) {
     if (!school.counted) continue;
     if (std::isnan(school.row.numbers)) ++out.without_numbers;
     if (school.row.n_pings > 0 && school.row.n_pings_whole == 0) ++out.cut;
-    if (std::isnan(school.row.incidence_deg)) ++out.without_course;
+    if (std::isnan(school.row.aspect_deg)) ++out.without_course;
     out.schools.push_back(std::move(school.row));
     out.pings.insert(out.pings.end(), school.pings.begin(), school.pings.end());
   }

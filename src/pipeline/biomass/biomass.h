@@ -31,7 +31,7 @@ struct Biomass {
   bool integrated = false;           ///< OUT holds tables of echo integration
   std::int64_t without_numbers = 0;  ///< schools whose backscatter is unknown
   std::int64_t cut = 0;              ///< schools that touch an edge in every ping
-  std::int64_t without_course = 0;   ///< schools of which no incidence angle is known
+  std::int64_t without_course = 0;   ///< schools of which no aspect is known
 };
 
 /// Numbers and biomass of the schools of a run, and with effort.csv and strata.csv in OUT of its strata. Writes biomass.csv,

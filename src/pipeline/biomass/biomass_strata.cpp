@@ -64,11 +64,15 @@ struct SchoolsOf {
   }
 };
 
+constexpr TimeNs kTextTime_ns = 1'000'000;  ///< tables cut times to whole milliseconds
+
 /// A school's stratum; empty where it lies in no transect.
 std::optional<std::string> stratum_of(const NumberedSchool& school, std::span<const EffortRow> effort) {
   for (const EffortRow& unit : effort) {
     if (unit.edsu == 0) continue;
-    if (unit.first_time_utc <= school.middle_utc && school.middle_utc <= unit.last_time_utc) return unit.stratum;
+    if (unit.first_time_utc <= school.middle_utc && school.middle_utc < unit.last_time_utc + kTextTime_ns) {
+      return unit.stratum;
+    }
   }
   return std::nullopt;
 }
@@ -91,11 +95,9 @@ class StrataMaker {
     BiomassStratumRow row = seen("stratum", of.stratum, schools);
     row.n_transects = of.n_transects;
     row.distance_nmi = of.distance_nmi;
-    if (schools.all_m2 > 0.0) {
-      row.nasc_school_m2_nmi2 = of.nasc_school_m2_nmi2 * schools.counted_m2 / schools.all_m2;
-    } else {
-      row.nasc_school_m2_nmi2 = of.nasc_school_m2_nmi2;
-    }
+    const double counted_share = schools.all_m2 > 0.0 ? schools.counted_m2 / schools.all_m2 : 1.0;
+    row.nasc_school_m2_nmi2 = of.nasc_school_m2_nmi2 * counted_share;
+    nasc_ += row.nasc_school_m2_nmi2 * of.distance_nmi / distance_nmi_;
     const Together density = density_of(row.nasc_school_m2_nmi2, of, schools);
     put_density(density, row);
     mean_.add(density, of.distance_nmi / distance_nmi_);
@@ -115,8 +117,7 @@ class StrataMaker {
     if (of == nullptr) return row;
     row.n_transects = of->n_transects;
     row.distance_nmi = of->distance_nmi;
-    row.nasc_school_m2_nmi2 =
-        schools.all_m2 > 0.0 ? of->nasc_school_m2_nmi2 * schools.counted_m2 / schools.all_m2 : of->nasc_school_m2_nmi2;
+    row.nasc_school_m2_nmi2 = nasc_;
     put_density(mean_, row);
     row.area_nmi2 = area_nmi2_;
     put_whole(whole_, row);
@@ -142,11 +143,11 @@ class StrataMaker {
     return row;
   }
 
-  /// Fish per nmi2; none where there are no schools.
+  /// Fish per nmi2; none where there are no schools, unknown where NASC tells of some and nobody knows of which fish.
   static Together density_of(double nasc, const StratumRow& of, const SchoolsOf& schools) {
     Together density;
     if (!(schools.counted_m2 > 0.0)) {
-      density.add(schools.n > 0 ? kUnknown : 0.0, 0.0, 0.0, {.own = 0.0});
+      density.add(schools.n == 0 && nasc == 0.0 ? 0.0 : kUnknown, 0.0, 0.0, {.own = 0.0});
       return density;
     }
     const double per_nmi2 = nasc / (4.0 * std::numbers::pi) * schools.seen.value / schools.known_m2;
@@ -190,8 +191,9 @@ class StrataMaker {
   double distance_nmi_;  ///< of all strata
   double tonnes_;        ///< of a fish
   SamplingErrors lengths_;
-  Together mean_;   ///< fish per nmi2 over strata, weighted by their distances
-  Together whole_;  ///< fish in all areas
+  double nasc_ = 0.0;  ///< of schools, m2 nmi-2, over strata, weighted by their distances
+  Together mean_;      ///< fish per nmi2 over strata, weighted by their distances
+  Together whole_;     ///< fish in all areas
   double area_nmi2_ = 0.0;
 };
 

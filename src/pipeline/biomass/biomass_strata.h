@@ -14,7 +14,7 @@ namespace sonar {
 
 /// What strata are made of; all may be empty.
 struct StrataInput {
-  std::span<const EffortRow> effort;    ///< which stratum a school lies in, by its middle time
+  std::span<const EffortRow> effort;    ///< which stratum a school lies in, by its middle ping
   std::span<const StratumRow> strata;   ///< of echo integration
   std::map<std::string, double> areas;  ///< nmi2 by stratum
 };

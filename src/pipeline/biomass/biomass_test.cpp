@@ -115,6 +115,7 @@ ObservationProduct passing_school(double course_deg) {
   school.observation = product.observation;
   school.school_id = 1;
   school.course_deg = course_deg;
+  school.course_se_deg = 0.0;
   school.species = "herring";
   school.volume_corrected_m3 = 10000.0;
   school.backscatter_calibration_se_db = 0.2;
@@ -128,6 +129,7 @@ ObservationProduct passing_school(double course_deg) {
     row.observation = product.observation;
     row.school_id = 1;
     row.ping_index = i;
+    row.time_utc = ping.time;
     row.depth_m = 40.0;
     row.range_m = 150.0;
     row.bearing_deg = 60.0 + 3.0 * i;
@@ -168,9 +170,19 @@ TEST(SchoolNumbers, count_fish_of_known_directivity) {
   EXPECT_NEAR(row.fish_per_m3, 5.0, 0.03);
   EXPECT_EQ(row.band, "fading calibration lengths aspect");
   for (const BiomassPingRow& ping : schools[0].pings) {
-    EXPECT_NEAR(ping.numbers, kFish, 0.02 * kFish) << ping.incidence_deg;
-    EXPECT_NEAR(ping.incidence_deg, std::abs(30.0 - 3.0 * static_cast<double>(ping.ping_index)), 1e-6);
+    EXPECT_NEAR(ping.numbers, kFish, 0.02 * kFish) << ping.aspect_deg;
+    EXPECT_NEAR(ping.aspect_deg, 90.0 - std::abs(30.0 - 3.0 * static_cast<double>(ping.ping_index)), 1e-6);
   }
+}
+
+// What one faint ping does not tell of its fading the others do.
+TEST(SchoolNumbers, fade_though_a_ping_does_not_tell) {
+  ObservationProduct product = passing_school(0.0);
+  const double all = school_numbers({&product, 1}, line_fish())[0].errors.own;
+  product.school_pings[0].backscatter_total_se_m2 = kUnknown;
+  const double fewer = school_numbers({&product, 1}, line_fish())[0].errors.own;
+  EXPECT_GT(fewer, all);
+  EXPECT_LT(fewer, 1.1 * all);
 }
 
 TEST(SchoolNumbers, without_aspect_are_told_wrong) {
@@ -189,20 +201,50 @@ TEST(SchoolNumbers, of_an_unknown_course_have_a_wide_band) {
   EXPECT_LT(row.numbers_low, kFish);
   EXPECT_GT(row.numbers_high, kFish);
   EXPECT_NEAR(row.ts_span_db, 10.0, 0.1);
-  EXPECT_TRUE(std::isnan(row.incidence_deg));
+  EXPECT_TRUE(std::isnan(row.aspect_deg));
 }
 
 // Seen from one side of broadside only, a course known to 10 degrees makes a difference; from both it evens out.
 TEST(SchoolNumbers, hold_the_doubt_of_the_course) {
   ObservationProduct product = passing_school(0.0);
   product.school_pings.resize(11);
-  product.schools[0].speed_mps = 1.0;
-  product.schools[0].speed_se_mps = std::tan(rad_from_deg(10.0)) / 1.96;
+  product.schools[0].course_se_deg = 10.0 / 1.96;
   const auto doubted = school_numbers({&product, 1}, line_fish());
-  product.schools[0].speed_se_mps = 0.0;
+  product.schools[0].course_se_deg = kUnknown;
+  const auto untold = school_numbers({&product, 1}, line_fish());
+  product.schools[0].course_se_deg = 0.0;
   const auto sure = school_numbers({&product, 1}, line_fish());
   EXPECT_EQ(sure[0].row.ts_span_db, 0.0);
   EXPECT_GT(doubted[0].row.ts_span_db, 0.1);
+  EXPECT_GT(untold[0].row.ts_span_db, doubted[0].row.ts_span_db);
+}
+
+// Broadside lies within what the course may be, and neither of its ends is as loud.
+TEST(SchoolNumbers, hold_broadside_where_the_course_may_be) {
+  ObservationProduct product = passing_school(10.0);
+  product.school_pings = {product.school_pings[10]};
+  product.schools[0].course_se_deg = 20.0 / 1.96;
+  const auto schools = school_numbers({&product, 1}, line_fish());
+  EXPECT_NEAR(schools[0].row.ts_strongest_db, 10.0 * std::log10(std::pow(10.0, -6.8) * 27.0 * 27.0), 1e-6);
+}
+
+// A current carries the school over ground; its fish head as they swim through the water.
+TEST(SchoolNumbers, take_the_course_through_the_water) {
+  ObservationProduct product = passing_school(40.0);
+  product.schools[0].course_water_deg = 0.0;
+  product.schools[0].course_water_se_deg = 0.0;
+  const auto schools = school_numbers({&product, 1}, line_fish());
+  EXPECT_NEAR(schools[0].row.numbers, kFish, 0.005 * kFish);
+  EXPECT_EQ(schools[0].row.course_deg, 0.0);
+}
+
+// An even number of pings: half way between the first and the last there is none, but may be the end of an EDSU.
+TEST(SchoolNumbers, lie_where_a_ping_is) {
+  ObservationProduct product = passing_school(0.0);
+  product.school_pings.resize(20);
+  product.schools[0].last_time_utc = product.school_pings.back().time_utc;
+  const auto schools = school_numbers({&product, 1}, line_fish());
+  EXPECT_EQ(schools[0].middle_utc, product.school_pings[10].time_utc);
 }
 
 TEST(SchoolNumbers, span_the_choices) {
@@ -231,6 +273,8 @@ TEST(SchoolNumbers, take_only_the_pings_that_tell_backscatter) {
   EXPECT_NEAR(schools[0].row.numbers, kFish, 0.005 * kFish);
 }
 
+constexpr TimeNs kSecond_ns = 1'000'000'000;
+
 /// Schools of 1 m2 and 10 000 fish, that is -40 dB, in the middle of two strata.
 std::vector<NumberedSchool> two_schools() {
   std::vector<NumberedSchool> schools(2);
@@ -241,17 +285,17 @@ std::vector<NumberedSchool> two_schools() {
     school.errors.own = 0.03;
     school.errors.calibration = 0.04;
   }
-  schools[0].middle_utc = 5;
-  schools[1].middle_utc = 15;
+  schools[0].middle_utc = 5 * kSecond_ns;
+  schools[1].middle_utc = 15 * kSecond_ns;
   return schools;
 }
 
-EffortRow effort(const std::string& stratum, TimeNs from, TimeNs to) {
+EffortRow effort(const std::string& stratum, TimeNs from_s, TimeNs to_s) {
   EffortRow row;
   row.stratum = stratum;
   row.edsu = 1;
-  row.first_time_utc = from;
-  row.last_time_utc = to;
+  row.first_time_utc = from_s * kSecond_ns;
+  row.last_time_utc = to_s * kSecond_ns;
   return row;
 }
 
@@ -311,6 +355,27 @@ TEST(BiomassStrata, of_a_species_have_its_share_of_the_echo) {
   const auto rows = biomass_strata(schools, line_fish(), {units, strata, {}});
   EXPECT_NEAR(rows[0].nasc_school_m2_nmi2, 25.0, 1e-9);
   EXPECT_EQ(rows[0].n_schools, 1);
+}
+
+// The table of effort has whole milliseconds, a ping has not.
+TEST(BiomassStrata, hold_a_school_in_the_last_ping_of_a_unit) {
+  std::vector<NumberedSchool> schools = two_schools();
+  schools[0].middle_utc = 10 * kSecond_ns + 999'999;
+  const std::vector<EffortRow> units{effort("north", 1, 10), effort("south", 11, 20)};
+  const std::vector<StratumRow> strata{stratum("stratum", "north", 30.0, 100.0, 10.0)};
+  EXPECT_EQ(biomass_strata(schools, line_fish(), {units, strata, {}})[0].n_schools, 1);
+}
+
+// Echo of schools, and none whose fish are known: how many there are is not known, and not 0.
+TEST(BiomassStrata, of_unknown_fish_have_no_numbers) {
+  const std::vector<EffortRow> units{effort("north", 1, 20)};
+  const std::vector<StratumRow> strata{stratum("stratum", "north", 30.0, 100.0, 10.0),
+                                       stratum("stratum", "south", 30.0, 100.0, 10.0),
+                                       stratum("stratum", "west", 30.0, 0.0, 0.0)};
+  const auto rows = biomass_strata(two_schools(), line_fish(), {units, strata, {}});
+  EXPECT_GT(rows[0].numbers_per_nmi2, 0.0);
+  EXPECT_TRUE(std::isnan(rows[1].numbers_per_nmi2));
+  EXPECT_EQ(rows[2].numbers_per_nmi2, 0.0);
 }
 
 TEST(BiomassStrata, without_integration_count_what_was_seen) {

@@ -43,20 +43,29 @@ BeamToSchool look_of(const ObservationProduct& product, const SchoolPingRow& row
   return {row.bearing_deg, deg_from_rad(std::asin(std::clamp(sine, -1.0, 1.0))), course_deg};
 }
 
-/// Courses between which a school's lies with 95 %, by the error of its speed; of an unknown course end on and broadside.
-std::array<double, 2> doubted_courses(const SchoolRow& school, double bearing_deg) {
-  if (std::isnan(school.course_deg)) return {bearing_deg, bearing_deg + 90.0};
-  const double off = std::isfinite(school.speed_se_mps) && school.speed_mps > 0.0
-                         ? deg_from_rad(std::atan(1.96 * school.speed_se_mps / school.speed_mps))
-                         : 0.0;
-  return {school.course_deg - off, school.course_deg + off};
+/// Which way a school swims: through the water where that is known, for so its fish head, else over ground.
+struct Course {
+  double deg = kUnknown;
+  double se_deg = kUnknown;
+};
+Course course_of(const SchoolRow& school) {
+  if (std::isfinite(school.course_water_deg)) return {school.course_water_deg, school.course_water_se_deg};
+  return {school.course_deg, school.course_se_deg};
+}
+
+/// Courses over what a school's may be with 95 %, and of an unknown one from end on to broadside. Courses are told where the
+/// speed is two of its errors or more, so that one without a stated error is known to 45 degrees.
+std::array<double, 4> doubted_courses(const Course& course, double bearing_deg) {
+  if (std::isnan(course.deg)) return {bearing_deg, bearing_deg + 30.0, bearing_deg + 60.0, bearing_deg + 90.0};
+  const double off = std::isfinite(course.se_deg) ? std::min(1.96 * course.se_deg, 90.0) : 45.0;
+  return {course.deg - off, course.deg - off / 2.0, course.deg + off / 2.0, course.deg + off};
 }
 
 /// What the rows of one school have in one ping together.
 struct InPing {
   double echo_m2 = 0.0;
   double variance_m4 = 0.0;
-  std::vector<double> sigma_m2;  ///< mean over the rows: chosen, choices, chosen at both doubted courses
+  std::vector<double> sigma_m2;  ///< mean over the rows: chosen, choices, chosen at each doubted course
   int rows = 0;
   bool known = true;
   bool touches_edge = false;
@@ -66,12 +75,13 @@ struct InPing {
 /// Sums over the pings that are used.
 struct Sums {
   double echo_m2 = 0.0;
-  double variance_m4 = 0.0;
+  double variance_m4 = 0.0;   ///< of the pings that tell it
+  double echo_told_m2 = 0.0;  ///< ... and their echo
   std::vector<double> sigma_m2;
   double depth_m = 0.0;
-  double incidence_deg = 0.0;
+  double aspect_deg = 0.0;
   int rows = 0;
-  int rows_with_incidence = 0;
+  int rows_with_aspect = 0;
 };
 
 class SchoolCounter {
@@ -93,11 +103,11 @@ class SchoolCounter {
     out.row.survey_school = first.survey_school;
     out.row.species = first.species;
     out.row.backscatter_m2 = school.backscatter_m2;
-    out.middle_utc = first.first_time_utc + (first.last_time_utc - first.first_time_utc) / 2;
+    out.middle_utc = middle_ping_time(first);
     out.counted = fish_.species.empty() || first.species == fish_.species;
     if (!out.counted) return out;
     out.row.ts_preset = fish_.chosen.name;
-    out.row.course_deg = first.course_deg;
+    out.row.course_deg = course_of(first).deg;
     std::map<InProduct, InPing> pings;
     for (const SchoolRow* row : school.rows) take_row(*row, pings, out);
     const Sums sums = sum_of(pings, out);
@@ -106,12 +116,18 @@ class SchoolCounter {
   }
 
  private:
+  /// A ping's own time: between two pings there may be the end of a transect or of an EDSU.
+  [[nodiscard]] TimeNs middle_ping_time(const SchoolRow& school) const {
+    const auto rows = rows_.find({product_of_.at(school.observation), school.school_id});
+    return rows == rows_.end() ? school.first_time_utc : rows->second[rows->second.size() / 2]->time_utc;
+  }
+
   void take_row(const SchoolRow& school, std::map<InProduct, InPing>& pings, NumberedSchool& out) const {
     const std::size_t product = product_of_.at(school.observation);
     const auto rows = rows_.find({product, school.school_id});
     if (rows == rows_.end() || strengths_[product].empty()) return;
     for (const SchoolPingRow* row : rows->second) {
-      const BeamToSchool look = look_of(products_[product], *row, school.course_deg);
+      const BeamToSchool look = look_of(products_[product], *row, course_of(school).deg);
       InPing& ping = pings[{product, row->ping_index}];
       const std::vector<double> sigma = sigmas_of(school, *row, look, strengths_[product]);
       ping.sigma_m2.resize(sigma.size());
@@ -121,7 +137,8 @@ class SchoolCounter {
       ++ping.rows;
       ping.echo_m2 += echo_m2(*row);
       ping.variance_m4 += row->backscatter_total_se_m2 * row->backscatter_total_se_m2;
-      ping.known = ping.known && std::isfinite(echo_m2(*row)) && std::isfinite(ping.sigma_m2.front());
+      ping.known = ping.known && std::isfinite(echo_m2(*row)) &&
+                   std::all_of(sigma.begin(), sigma.end(), [](double m2) { return std::isfinite(m2); });
       ping.touches_edge = ping.touches_edge || row->touches_edge != 0;
       ping.at.push_back(out.pings.size());
       out.pings.push_back(ping_row(*row, look, strengths_[product].front()));
@@ -132,7 +149,7 @@ class SchoolCounter {
                                        const std::vector<MeanStrength>& strengths) {
     std::vector<double> sigma;
     for (const MeanStrength& strength : strengths) sigma.push_back(strength.sigma_bs_m2(row.depth_m, look));
-    for (const double course_deg : doubted_courses(school, row.bearing_deg)) {
+    for (const double course_deg : doubted_courses(course_of(school), row.bearing_deg)) {
       BeamToSchool doubted = look;
       doubted.course_deg = course_deg;
       sigma.push_back(strengths.front().sigma_bs_m2(row.depth_m, doubted));
@@ -148,7 +165,7 @@ class SchoolCounter {
     out.time_utc = row.time_utc;
     out.range_m = row.range_m;
     out.depth_m = row.depth_m;
-    out.incidence_deg = incidence_deg(look);
+    out.aspect_deg = aspect_deg(look);
     out.sv_mean_db = row.sv_mean_db;
     out.backscatter_m2 = echo_m2(row);
     const double sigma = strength.sigma_bs_m2(row.depth_m, look);
@@ -167,7 +184,10 @@ class SchoolCounter {
       ++out.row.n_pings;
       if (!ping.touches_edge) ++out.row.n_pings_whole;
       sums.echo_m2 += ping.echo_m2;
-      sums.variance_m4 += ping.variance_m4;
+      if (std::isfinite(ping.variance_m4)) {
+        sums.variance_m4 += ping.variance_m4;
+        sums.echo_told_m2 += ping.echo_m2;
+      }
       sums.sigma_m2.resize(ping.sigma_m2.size());
       for (std::size_t i = 0; i < ping.sigma_m2.size(); ++i) sums.sigma_m2[i] += ping.sigma_m2[i];
       for (const std::size_t at : ping.at) {
@@ -175,9 +195,9 @@ class SchoolCounter {
         row.used = 1;
         sums.depth_m += row.depth_m;
         ++sums.rows;
-        if (!std::isfinite(row.incidence_deg)) continue;
-        sums.incidence_deg += row.incidence_deg;
-        ++sums.rows_with_incidence;
+        if (!std::isfinite(row.aspect_deg)) continue;
+        sums.aspect_deg += row.aspect_deg;
+        ++sums.rows_with_aspect;
       }
     }
     return sums;
@@ -188,7 +208,7 @@ class SchoolCounter {
     if (row.n_pings == 0 || !(sums.echo_m2 > 0.0)) return;
     const auto pings = static_cast<double>(row.n_pings);
     row.depth_m = sums.depth_m / sums.rows;
-    if (sums.rows_with_incidence > 0) row.incidence_deg = sums.incidence_deg / sums.rows_with_incidence;
+    if (sums.rows_with_aspect > 0) row.aspect_deg = sums.aspect_deg / sums.rows_with_aspect;
     const auto [least, most] = std::minmax_element(sums.sigma_m2.begin(), sums.sigma_m2.end());
     row.ts_mean_db = db_from_linear(sums.sigma_m2.front() / pings);
     row.ts_strongest_db = db_from_linear(*most / pings);
@@ -197,7 +217,7 @@ class SchoolCounter {
     const double numbers = sums.echo_m2 / sums.sigma_m2.front();
     out.strongest = sums.echo_m2 / *most;
     out.weakest = sums.echo_m2 / *least;
-    out.errors.own = std::sqrt(sums.variance_m4) / sums.echo_m2;
+    if (sums.echo_told_m2 > 0.0) out.errors.own = std::sqrt(sums.variance_m4) / sums.echo_told_m2;
     out.errors.calibration = relative_of_db(school.rows.front()->backscatter_calibration_se_db);
     const SamplingErrors of_lengths = sampling_errors(fish_.lengths, fish_.chosen, fish_.weight);
     out.errors.lengths = of_lengths.numbers;

@@ -34,7 +34,7 @@ struct FrequencyBand {
 struct NumberedSchool {
   BiomassRow row;
   std::vector<BiomassPingRow> pings;
-  TimeNs middle_utc = 0;  ///< of its pings, first and last
+  TimeNs middle_utc = 0;  ///< of its middle ping
   NumberErrors errors;
   double strongest = kUnknown;  ///< numbers with the strongest of the choices, the least
   double weakest = kUnknown;    ///< ... and with the weakest
@@ -42,7 +42,8 @@ struct NumberedSchool {
 };
 
 /// Numbers of fish in schools: echo over the mean cross-section of a fish, both summed over the pings that tell the school's
-/// backscatter (model/school_totals.h). Course: over ground, of schools.csv; where none is known fish of any heading are meant.
+/// backscatter (model/school_totals.h). Course: of schools.csv, through
+/// the water where it is known, else over ground; where none is known fish of any heading are meant.
 /// products  joined and numbered, as merge() and number_as_merged() leave them
 /// out       in the order of counted_schools(); the rows of those not counted have only names and backscatter
 [[nodiscard]] std::vector<NumberedSchool> school_numbers(std::span<const ObservationProduct> products,

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/exports/track_edges.h"
 
-#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <map>
-#include <optional>
 #include <set>
-#include <tuple>
-#include <utility>
+#include <vector>
 
 #include "model/school_totals.h"
 #include "school/track/track.h"
@@ -15,14 +13,11 @@
 namespace sonar {
 namespace {
 
-/// (school, kind) -> the event that the tracker noted last.
-using Noted = std::map<std::pair<std::int64_t, TrackEventKind>, TrackEvent>;
-
-Noted noted_events(const ObservationProduct& product) {
-  Noted noted;
+std::vector<TrackEvent> noted_events(const ObservationProduct& product) {
+  std::vector<TrackEvent> noted;
   for (const Diagnostic& note : product.diagnostics) {
     if (note.code != DiagnosticCode::track_event) continue;
-    if (const auto event = event_from_text(note.text)) noted[{event->school_id, event->kind}] = *event;
+    if (const auto event = event_from_text(note.text)) noted.push_back(*event);
   }
   return noted;
 }
@@ -32,7 +27,7 @@ Noted noted_events(const ObservationProduct& product) {
 std::vector<TrackEdgeRow> track_edges(const ObservationProduct& product) {
   std::map<std::int64_t, std::set<std::int64_t>> seen;
   for (const SchoolPingRow& row : product.school_pings) seen[row.school_id].insert(row.ping_index);
-  const Noted noted = noted_events(product);
+  const std::vector<TrackEvent> noted = noted_events(product);
   const std::int64_t end = std::ssize(product.pings);
   std::vector<TrackEdgeRow> edges;
   const auto add = [&](std::int64_t school, const char* event, std::int64_t ping, std::int64_t other = 0) {
@@ -41,22 +36,27 @@ std::vector<TrackEdgeRow> track_edges(const ObservationProduct& product) {
                      other == 0 ? std::string{} : school_name(product.observation, other)});
   };
   for (const auto& [school, pings] : seen) {
-    const auto split = noted.find({school, TrackEventKind::split});
-    const bool was_split = split != noted.end() && seen.contains(split->second.other_id);
-    add(school, was_split ? "split" : "born", *pings.begin(), was_split ? split->second.other_id : 0);
+    // Noted of this school in the pings after one up to another; 0 = none, or with a school that is gone.
+    const auto other_in = [&, id = school](TrackEventKind kind, std::int64_t after, std::int64_t last) {
+      for (const TrackEvent& event : noted) {
+        const bool fits = event.kind == kind && event.school_id == id && seen.contains(event.other_id);
+        if (fits && after < event.ping_index && event.ping_index <= last) return event.other_id;
+      }
+      return std::int64_t{0};
+    };
+    const auto add_gone = [&, id = school](std::int64_t after, std::int64_t last) {
+      const std::int64_t into = other_in(TrackEventKind::merge, after, last);
+      add(id, into == 0 ? "lost" : "merged", after, into);
+    };
+    const std::int64_t parent = other_in(TrackEventKind::split, -1, *pings.begin());
+    add(school, parent == 0 ? "born" : "split", *pings.begin(), parent);
     for (auto at = std::next(pings.begin()); at != pings.end(); ++at) {
       const std::int64_t before = *std::prev(at);
       if (*at == before + 1) continue;
-      add(school, "lost", before);
+      add_gone(before, *at - 1);
       add(school, "refound", *at);
     }
-    const auto merge = noted.find({school, TrackEventKind::merge});
-    const bool merged = merge != noted.end() && seen.contains(merge->second.other_id);
-    if (merged) {
-      add(school, "merged", *pings.rbegin(), merge->second.other_id);
-    } else if (*pings.rbegin() + 1 < end) {
-      add(school, "lost", *pings.rbegin());
-    }
+    if (*pings.rbegin() + 1 < end) add_gone(*pings.rbegin(), end - 1);
   }
   return edges;
 }

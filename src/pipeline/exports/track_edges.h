@@ -31,7 +31,8 @@ void columns(Visitor& v, TrackEdgeRow& r) {
 }
 
 /// The edges of all tracks of a product, by school and ping. A school that is not seen in a ping between two others was lost
-/// in the first and is refound in the second; one that is seen in the observation's last ping is not lost. Splits and
+/// in the first and is refound in the second; one that is seen in the observation's last ping is not lost. A merge stands in
+/// the place of what would be lost, where the tracker noted it while the school was not seen. Splits and
 /// merges are those that the tracker noted; rows tell everything else, so that it is so too where a human has edited.
 [[nodiscard]] std::vector<TrackEdgeRow> track_edges(const ObservationProduct& product);
 

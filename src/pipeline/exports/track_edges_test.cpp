@@ -57,5 +57,23 @@ TEST(TrackEdges, of_each_kind) {
                                       "3 born 2 ", "3 merged 5 obs-0002/1", "4 born 1 ", "4 lost 1 "}));
 }
 
+/// School 2 merges into 1, comes out again, and in the end it only leaves.
+TEST(TrackEdges, of_a_school_that_comes_out_of_another_again) {
+  ObservationProduct p = example::empty("obs-0002", 10);
+  const PingMask mask = example::block(0, 0, 3, 10, 12);
+  example::add_school(p, 1, 0, 9, mask);
+  example::add_school(p, 2, 0, 2, mask);
+  example::add_school(p, 2, 5, 7, mask);
+  Diagnostic note;
+  note.code = DiagnosticCode::track_event;
+  note.text = to_text(TrackEvent{TrackEventKind::merge, 3, 2, 1});
+  p.diagnostics.push_back(note);
+  std::vector<std::string> told;
+  for (const TrackEdgeRow& edge : track_edges(p)) {
+    if (edge.school_id == 2) told.push_back(edge.event + " " + std::to_string(edge.ping_index));
+  }
+  EXPECT_EQ(told, (std::vector<std::string>{"born 0", "merged 2", "refound 5", "lost 7"}));
+}
+
 }  // namespace
 }  // namespace sonar

@@ -47,10 +47,10 @@ double cosine_to_course(double relative_rad, double elevation_rad) {
 
 }  // namespace
 
-double incidence_deg(const BeamToSchool& look) {
+double aspect_deg(const BeamToSchool& look) {
   const double cosine =
       cosine_to_course(rad_from_deg(look.bearing_deg - look.course_deg), rad_from_deg(look.elevation_deg));
-  return deg_from_rad(std::asin(std::min(std::abs(cosine), 1.0)));
+  return deg_from_rad(std::acos(std::min(std::abs(cosine), 1.0)));
 }
 
 MeanStrength::MeanStrength(const TsRelation& relation, const FishLengths& lengths, double wave_number)

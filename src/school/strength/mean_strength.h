@@ -16,9 +16,9 @@ struct BeamToSchool {
   double course_deg = kUnknown;     ///< of the school, true
 };
 
-/// Angle between the beam and the plane square to the school's course: 0 where it is seen broadside, 90 end on, from ahead
-/// or from behind. Unknown where any part is.
-[[nodiscard]] double incidence_deg(const BeamToSchool& look);
+/// Angle between the beam and the school's course: 0 end on, from ahead or from behind, 90 broadside. Unknown where any part
+/// is. (incidence_deg of the school tables is the same angle to the school's length.)
+[[nodiscard]] double aspect_deg(const BeamToSchool& look);
 
 /// Backscattering cross-section of a fish, the linear mean over lengths and over how the fish of a school stand.
 class MeanStrength {

@@ -48,16 +48,16 @@ TEST(MeanStrength, averages_lengths_in_linear_units) {
   EXPECT_NEAR(MeanStrength(relation(-70.0), lengths, 400.0).sigma_bs_m2(0.0, {}), 850e-7, 1e-12);
 }
 
-TEST(Incidence, is_worked_by_hand) {
-  EXPECT_NEAR(incidence_deg({90.0, 0.0, 0.0}), 0.0, 1e-9);
-  EXPECT_NEAR(incidence_deg({10.0, 0.0, 190.0}), 90.0, 1e-5);
-  EXPECT_NEAR(incidence_deg({30.0, 0.0, 0.0}), 60.0, 1e-9);
-  EXPECT_NEAR(incidence_deg({0.0, -30.0, 0.0}), 60.0, 1e-9);
-  EXPECT_NEAR(incidence_deg({350.0, -90.0, 80.0}), 0.0, 1e-9);  // from above
-  EXPECT_TRUE(std::isnan(incidence_deg({30.0, 0.0, kUnknown})));
+TEST(Aspect, is_worked_by_hand) {
+  EXPECT_NEAR(aspect_deg({90.0, 0.0, 0.0}), 90.0, 1e-9);
+  EXPECT_NEAR(aspect_deg({10.0, 0.0, 190.0}), 0.0, 1e-5);
+  EXPECT_NEAR(aspect_deg({30.0, 0.0, 0.0}), 30.0, 1e-9);
+  EXPECT_NEAR(aspect_deg({0.0, -30.0, 0.0}), 30.0, 1e-9);
+  EXPECT_NEAR(aspect_deg({350.0, -90.0, 80.0}), 90.0, 1e-9);  // from above
+  EXPECT_TRUE(std::isnan(aspect_deg({30.0, 0.0, kUnknown})));
 }
 
-// All fish alike: (sin x / x)^2 with x = k l sin(incidence), its first null at x = pi.
+// All fish alike: (sin x / x)^2 with x = k l cos(aspect), its first null at x = pi.
 TEST(MeanStrength, of_fish_that_stand_alike_is_a_line) {
   const double k = 400.0;
   const MeanStrength fish(line_fish(0.0, 0.0, 0.0), of_one(30.0), k);
