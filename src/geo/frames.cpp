@@ -27,12 +27,12 @@ Point<Sonar> level(const Point<Vessel>& p, double roll_rad, double pitch_rad) {
   return {p.x * cp + z * sp, y, -p.x * sp + z * cp};
 }
 
-namespace {
-
-Point<Sonar> turned(const Point<Sonar>& p, const Placement& placement) {
-  if (placement.roll_rad == 0.0 && placement.pitch_rad == 0.0) return p;
-  return level(Point<Vessel>{p.x, p.y, p.z}, placement.roll_rad, placement.pitch_rad);
+Point<Sonar> levelled_direction(const Point<Sonar>& direction, const Placement& placement) {
+  if (placement.roll_rad == 0.0 && placement.pitch_rad == 0.0) return direction;
+  return level(Point<Vessel>{direction.x, direction.y, direction.z}, placement.roll_rad, placement.pitch_rad);
 }
+
+namespace {
 
 Point<Sonar> turned_back(const Point<Sonar>& p, const Placement& placement) {
   if (placement.roll_rad == 0.0 && placement.pitch_rad == 0.0) return p;
@@ -47,7 +47,7 @@ Point<Sonar> turned_back(const Point<Sonar>& p, const Placement& placement) {
 }  // namespace
 
 Point<Sonar> levelled(const Point<Sonar>& p, const Placement& placement) {
-  const Point<Sonar> straight = turned(p, placement);
+  const Point<Sonar> straight = levelled_direction(p, placement);
   return placement.rays ? placement.rays->bent(straight) : straight;
 }
 

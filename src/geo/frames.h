@@ -57,7 +57,9 @@ struct Placement {
 /// Where a place in the sector lies once the beams are turned by the placement's roll and pitch (stabilised beams stay) and
 /// bent along its rays: the one place where refraction enters.
 [[nodiscard]] Point<Sonar> levelled(const Point<Sonar>& p, const Placement& placement);
-/// The other way.
+/// Where a direction in the sector points then: turned, and not bent, as a ray begins along it.
+[[nodiscard]] Point<Sonar> levelled_direction(const Point<Sonar>& direction, const Placement& placement);
+/// The other way of levelled().
 [[nodiscard]] Point<Sonar> unlevelled(const Point<Sonar>& p, const Placement& placement);
 
 /// Wraps to [0, 360).

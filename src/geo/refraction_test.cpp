@@ -60,6 +60,7 @@ TEST(Refraction, EntersWherePlacesAreLevelled) {
   placement.rays = rays;
   EXPECT_EQ(levelled(place, placement), rays->bent(straight));
   EXPECT_GT(norm(levelled(place, placement) - straight), 1.0);
+  EXPECT_EQ(levelled_direction(place, placement), straight);
   EXPECT_NEAR(norm(unlevelled(levelled(place, placement), placement) - place), 0.0, 1e-3);
 }
 

@@ -204,24 +204,26 @@ Array3<double> block_gain(View3<const std::int16_t> table, const BackgroundParam
   return gain;
 }
 
-double level_spread(View3<const std::int16_t> own, View3<const std::int16_t> levels, std::size_t pings, int samples,
+double level_spread(std::span<const Array3<std::int16_t>* const> pings, View3<const std::int16_t> levels, int samples,
                     const BackgroundParams& params) {
-  SONAR_CHECK(own.shape() == levels.shape() || pings < 3);
-  if (pings < 3) {
+  SONAR_CHECK(!pings.empty());
+  const auto count = static_cast<double>(pings.size());
+  if (pings.size() < 3) {
     const double p = params.quantile;
     const double data = std::max(1.0, params.far_fraction * samples / kFarBlocks);
-    return std::sqrt(p / (1.0 - p) / data) / -std::log1p(-p) /
-           std::sqrt(static_cast<double>(std::max<std::size_t>(1, pings)));
+    return std::sqrt(p / (1.0 - p) / data) / -std::log1p(-p) / std::sqrt(count);
   }
   std::vector<int> apart;
-  for (std::size_t i = 0; i < levels.all().size(); ++i) {
-    if (own.all()[i] != kNoData && levels.all()[i] != kNoData)
-      apart.push_back(std::abs(own.all()[i] - levels.all()[i]));
+  for (const auto* ping : pings) {
+    SONAR_CHECK(ping->shape() == levels.shape());
+    for (std::size_t i = 0; i < levels.all().size(); ++i) {
+      if (ping->all()[i] != kNoData) apart.push_back(std::abs(ping->all()[i] - levels.all()[i]));
+    }
   }
   if (apart.empty()) return 0.0;
   const double single =
       kStandardOverMiddleDeviation * (linear_from_db(db_from_counts(middle_of(std::move(apart)))) - 1.0);
-  return single * std::sqrt(std::numbers::pi / 2.0 / static_cast<double>(pings));  // of a median
+  return single * std::sqrt(std::numbers::pi / 2.0 / count);  // of a median
 }
 
 std::vector<double> noise_power_db(View3<const std::int16_t> levels, double spread, View3<const double> gain,

@@ -92,10 +92,12 @@ void keep_quieter(View3<const std::int16_t> own, double quiet_db, View3<std::int
 /// out     [fan][beam][block] as background_levels() makes them with low_quantile; 0 where the table holds kNoData
 [[nodiscard]] Array3<double> block_gain(View3<const std::int16_t> table, const BackgroundParams& params);
 
-/// Relative standard deviation of a level over several pings that holds noise alone, by how far the levels of one of them lie
-/// from those of all: most blocks hold little else, and it is in there how far along the beam neighbouring samples are alike. Of one
-/// or two pings, what independent samples would have.
-[[nodiscard]] double level_spread(View3<const std::int16_t> own, View3<const std::int16_t> levels, std::size_t pings,
+/// Relative standard deviation of a level over several pings that holds noise alone, by how far the levels of each lie from
+/// those of all: most blocks hold little else, and it is in there how far along the beam neighbouring samples are alike. A few
+/// disturbed pings change it little. Of one or two pings, what independent samples would have.
+/// in      pings as for levels_over_pings(), levels what that makes of them; not asked for with de_robertis
+/// samples of a beam
+[[nodiscard]] double level_spread(std::span<const Array3<std::int16_t>* const> pings, View3<const std::int16_t> levels,
                                   int samples, const BackgroundParams& params);
 
 /// Noise power of each row, dB re 1 W. low_quantile: what is left of its levels when the water is taken off that its fan

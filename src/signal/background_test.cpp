@@ -51,8 +51,7 @@ std::vector<double> noise_of(std::span<const Array3<std::int16_t>> pings, const 
   for (const auto& of_ping : levels) borrowed.push_back(&of_ping);
   const Array3<double> gain = block_gain(table_of(flags.shape()).view(), params);
   const Array3<std::int16_t> over_pings = levels_over_pings(borrowed, params);
-  const double spread = level_spread(std::as_const(levels.front()).view(), over_pings.view(), pings.size(),
-                                     flags.shape().samples, params);
+  const double spread = level_spread(borrowed, over_pings.view(), flags.shape().samples, params);
   return noise_power_db(over_pings.view(), spread, gain.view(), params);
 }
 
@@ -196,6 +195,26 @@ TEST(background, a_ping_is_no_louder_than_itself) {
   keep_quieter(std::as_const(pings[10]).view(), 6.0, Array3<std::int16_t>(pings[10].shape(), kNoData).view());
   EXPECT_TRUE(
       std::isnan(noise_power_db(std::as_const(unknown).view(), 0.1, Array3<double>(unknown.shape()).view(), {})[0]));
+}
+
+// A level of the 0.2 quantile of 82 samples scatters by 25 % (above), the median of eleven by sqrt(pi / 2 / 11) of that: 9.3 %. One
+// ping that is all loud moves the middle of the distances from the 50th to the 55th part in a hundred of those of the others: 13 %.
+TEST(background, spread_of_levels_over_pings) {
+  std::vector<Array3<std::int16_t>> pings;
+  std::vector<const Array3<std::int16_t>*> borrowed;
+  for (std::uint32_t seed = 1; seed <= 11; ++seed) {
+    const auto ping = noise_ping({4, 25, 1320}, -150.0, seed);
+    pings.push_back(background_levels(ping.view(), Array3<SampleFlags>(ping.shape()).view(), {}));
+  }
+  for (const auto& ping : pings) borrowed.push_back(&ping);
+  const auto spread = [&] {
+    const Array3<std::int16_t> together = levels_over_pings(borrowed, {});
+    return level_spread(borrowed, together.view(), 1320, {});
+  };
+  const double quiet = spread();
+  EXPECT_NEAR(quiet, 0.093, 0.012);
+  for (std::int16_t& level : pings[0].all()) level = static_cast<std::int16_t>(level + 1000);
+  EXPECT_NEAR(spread() / quiet, 1.1, 0.1);
 }
 
 TEST(background, median_over_pings_by_hand) {

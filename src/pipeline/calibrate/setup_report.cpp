@@ -82,6 +82,7 @@ Result<SetupReport> setup_report(const fs::path& out, Work& work) {
   SetupReport report;
   report.check = std::move(*check);
   report.mounting_azimuth_deg = seen->recipe->navigation.mounting_azimuth_deg;
+  report.sound_speed_mps = middle_of(std::move(seen->sound_speeds_mps));
   if (!report.check.drift_known) return report;
   const double scale = report.check.range_scale;
   report.proposed_mounting_azimuth_deg = wrap_360(report.mounting_azimuth_deg - report.check.bearing_error_deg);

@@ -129,7 +129,7 @@ std::vector<double> level_elevation_deg(const Sector& sector, const Placement& p
   for (int fan = 0; fan < sector.fans(); ++fan) {
     for (int beam = 0; beam < sector.beams(); ++beam) {
       const Point<Sonar> at = Sector::direction(sector.elevation_rad(fan), sector.azimuth_rad(beam));
-      level.push_back(-deg_from_rad(std::asin(std::clamp(levelled(at, placement).z, -1.0, 1.0))));
+      level.push_back(-deg_from_rad(std::asin(std::clamp(levelled_direction(at, placement).z, -1.0, 1.0))));
     }
   }
   return level;
@@ -212,11 +212,12 @@ std::vector<float> Engine::background_db(std::int64_t ping_index) const {
   }
   if (window.empty()) return {};
   Array3<std::int16_t> levels = levels_over_pings(window, recipe_.background);
+  const double spread =
+      recipe_.background.method == BackgroundMethod::low_quantile
+          ? level_spread(window, std::as_const(levels).view(), observation_.range.count, recipe_.background)
+          : 0.0;
   const auto& own = levels_[static_cast<std::size_t>(ping_index)];
   if (!own.all().empty()) keep_quieter(own.view(), recipe_.background_window.quiet_db, levels.view());
-  const auto& told = own.all().empty() ? *window.front() : own;
-  const double spread = level_spread(told.view(), std::as_const(levels).view(), window.size(), observation_.range.count,
-                                     recipe_.background);
   const std::vector<double> combined =
       noise_power_db(std::as_const(levels).view(), spread, block_gain_.view(), recipe_.background);
   std::vector<float> rounded(combined.size());

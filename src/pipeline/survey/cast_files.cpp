@@ -37,13 +37,19 @@ double depth_of(double pressure_dbar, double latitude_deg) {
   return (1.0 - (5.92e-3 + 5.25e-3 * s * s)) * pressure_dbar - 2.21e-6 * pressure_dbar * pressure_dbar;
 }
 
+/// Whether lines begin nearer to the deepest of them than to where they end: the way down was not kept.
+bool only_goes_up(const SoundProfile& lines, double deepest_m) {
+  return !lines.empty() && deepest_m - lines.front().depth_m < lines.front().depth_m - lines.back().depth_m;
+}
+
 Result<SoundProfile> profile_of(const Cast& cast, const std::string& file) {
   const auto& deep = cast.depth_m.empty() ? cast.pressure_dbar : cast.depth_m;
   const bool measured = !cast.sound_speed_mps.empty();
   const std::size_t lines =
       std::min(deep.size(),
                measured ? cast.sound_speed_mps.size() : std::min(cast.temperature_c.size(), cast.salinity_psu.size()));
-  SoundProfile profile;
+  SoundProfile valid_lines;
+  double deepest_m = 0.0;
   for (std::size_t i = 0; i < lines; ++i) {
     const double depth = cast.depth_m.empty() ? depth_of(deep[i], cast.latitude_deg) : deep[i];
     const double speed =
@@ -52,7 +58,13 @@ Result<SoundProfile> profile_of(const Cast& cast, const std::string& file) {
             : sound_speed_mackenzie(
                   {.temperature_c = cast.temperature_c[i], .salinity_psu = cast.salinity_psu[i], .depth_m = depth});
     if (!(depth >= 0.0) || !std::isfinite(speed)) continue;
-    if (profile.empty() || depth > profile.back().depth_m) profile.push_back({depth, speed});
+    valid_lines.push_back({depth, speed});
+    deepest_m = std::max(deepest_m, depth);
+  }
+  if (only_goes_up(valid_lines, deepest_m)) std::ranges::reverse(valid_lines);
+  SoundProfile profile;
+  for (const SoundSpeedAt& line : valid_lines) {
+    if (profile.empty() || line.depth_m > profile.back().depth_m) profile.push_back(line);
   }
   if (profile.empty()) {
     return fail(ErrorCode::format,
@@ -154,7 +166,7 @@ Result<SoundProfile> profile_from_tsd(std::string_view bytes, const std::string&
 std::vector<double>* column_of(Cast& cast, std::string_view name) {
   const auto says = [&](std::string_view word) { return name.find(word) != std::string_view::npos; };
   if (name.starts_with("dep") && says(", m]")) return &cast.depth_m;
-  if (name.starts_with("pr") && says("Pressure")) return &cast.pressure_dbar;
+  if (name.starts_with("pr") && says("Pressure") && says("[db]")) return &cast.pressure_dbar;
   if (name.starts_with("sv") && says("m/s]")) return &cast.sound_speed_mps;
   if (name.starts_with("t") && says("Temperature") && says("deg C]")) return &cast.temperature_c;
   if (name.starts_with("sal") && says("Salinity")) return &cast.salinity_psu;

@@ -38,6 +38,19 @@ TEST(CastFiles, SeaBirdsCast) {
   EXPECT_EQ(*measured, (SoundProfile{{5.0, 1490.0}, {20.0, 1485.5}}));
 }
 
+// Of a cast without its way down all lines are taken; a pressure in another unit is none.
+TEST(CastFiles, OnlyTheWayUp) {
+  const std::string header =
+      "* Sea-Bird\n# name 0 = depSM: Depth [salt water, m]\n# name 1 = svCM: Sound Velocity [Chen-Millero, m/s]\n";
+  const auto up = profile_from_bytes(header + "*END*\n 80 1485\n 81 1484\n 40 1488\n 5 1490\n", "up.cnv");
+  ASSERT_TRUE(up) << up.error().text;
+  EXPECT_EQ(*up, (SoundProfile{{5.0, 1490.0}, {40.0, 1488.0}, {81.0, 1484.0}}));
+  EXPECT_FALSE(
+      profile_from_bytes("* Sea-Bird\n# name 0 = prdE: Pressure, Strain Gauge [psi]\n"
+                         "# name 1 = svCM: Sound Velocity [Chen-Millero, m/s]\n*END*\n 10 1490\n",
+                         "psi.cnv"));
+}
+
 TEST(CastFiles, RefusalsNameTheFileAndThePlace) {
   for (const std::string& wrong :
        {std::string(kHeader) + "*END*\n 10 8 x 35\n", std::string("* Sea-Bird\n# name 0 = flag\n*END*\n0\n"),

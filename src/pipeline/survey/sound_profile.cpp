@@ -17,8 +17,8 @@ constexpr double kDeepest_m = 12'000.0;
 constexpr std::size_t kMostLines = 100'000;
 
 double speed_at(const SoundProfile& profile, double depth_m) {
-  const auto below =
-      std::find_if(profile.begin(), profile.end(), [&](const SoundSpeedAt& line) { return line.depth_m >= depth_m; });
+  const auto below = std::lower_bound(profile.begin(), profile.end(), depth_m,
+                                      [](const SoundSpeedAt& line, double depth) { return line.depth_m < depth; });
   if (below == profile.begin()) return profile.front().sound_speed_mps;
   if (below == profile.end()) return profile.back().sound_speed_mps;
   const SoundSpeedAt& above = *(below - 1);

@@ -11,7 +11,7 @@ namespace sonar {
 namespace {
 
 double slope_at(double elevation_rad, double azimuth_rad, const Placement& placement) {
-  return levelled(Sector::direction(elevation_rad, azimuth_rad), placement).z;
+  return levelled_direction(Sector::direction(elevation_rad, azimuth_rad), placement).z;
 }
 
 /// Angle below the horizon under which a depth is seen from so far off.

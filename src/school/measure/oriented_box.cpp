@@ -28,9 +28,8 @@ OrientedBox oriented_box(const PingMask& mask, const PrincipalAxes& axes, const 
   box.width_m = extents[order[1]].size();
   box.thickness_m = extents[order[2]].size();
   const Vector3& longest = axes.axis[order[0]];
-  const Point<Sonar> upright =
-      level(Point<Vessel>{longest[0], longest[1], longest[2]}, placement.roll_rad, placement.pitch_rad);
-  const Point<Enu> axis = to_enu(upright, placement.heading_rad);
+  const Point<Sonar> level = levelled_direction(Point<Sonar>{longest[0], longest[1], longest[2]}, placement);
+  const Point<Enu> axis = to_enu(level, placement.heading_rad);
   box.bearing_deg = wrap_360(deg_from_rad(std::atan2(axis.x, axis.y)));
   box.tilt_deg = deg_from_rad(std::atan2(axis.z, std::hypot(axis.x, axis.y)));
   if (box.bearing_deg >= 180.0) {  // its other end

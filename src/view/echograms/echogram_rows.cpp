@@ -26,7 +26,7 @@ std::vector<EchogramRow> echogram_rows(const Sector& sector, const Placement& pl
       EchogramRow row{fan * sector.beams() + beam, range.first_m, range.spacing_m};
       if (of.height == EchogramHeight::depth) {
         const Point<Sonar> along = Sector::direction(sector.elevation_rad(fan), sector.azimuth_rad(beam));
-        const double down = levelled(along, placement).z;
+        const double down = levelled_direction(along, placement).z;
         row.first_m = placement.transducer_depth_m + down * range.first_m;
         row.step_m = down * range.spacing_m;
       }
