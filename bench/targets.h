@@ -11,9 +11,9 @@ namespace sonar::bench {
 /// their target. What could not be compared is kept with its reason, so that a run that passed says how much it looked at.
 class Targets {
  public:
-  /// Fails unless measured >= least; NaN fails.
+  /// Fails unless measured >= least; NaN fails. Says what was measured, and whether the target is met or MISSED.
   void at_least(const std::string& what, double least, double measured);
-  /// Fails unless measured <= most; NaN fails.
+  /// Fails unless measured <= most; NaN fails. Says so likewise.
   void at_most(const std::string& what, double most, double measured);
   /// Never fails.
   void beside(const std::string& what, double target, double measured);
@@ -38,6 +38,7 @@ class Targets {
   [[nodiscard]] std::vector<std::string> verdict() const;
 
  private:
+  void compare(bool met, const std::string& line);
   void better(const std::string& whose, double psnr_db, const std::string& rival, double rival_psnr_db);
 
   int guarded_ = 0;

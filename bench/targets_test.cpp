@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace sonar::bench {
 namespace {
@@ -46,6 +48,18 @@ TEST(Targets, AFrameWhileDraggingTakes65Milliseconds) {
   EXPECT_TRUE(holds([](Targets& t) { t.dragging(0.065); }));
   EXPECT_FALSE(holds([](Targets& t) { t.dragging(0.066); }));
   EXPECT_FALSE(holds([](Targets& t) { t.dragging(std::nan("")); }));
+}
+
+TEST(Targets, WhatWasMeasuredIsSaidWhetherMetOrMissed) {
+  Targets targets;
+  targets.at_least("at rest, dB", 45.0, 45.0);
+  EXPECT_TRUE(targets.hold());
+  targets.at_least("at rest, dB", 45.0, 42.9);
+  targets.at_most("a frame, ms", 65.0, 65.1);
+  EXPECT_EQ(targets.news(), (std::vector<std::string>{"at rest, dB: target 45, measured 45: met",
+                                                      "at rest, dB: target 45, measured 42.9: MISSED",
+                                                      "a frame, ms: target 65 at most, measured 65.1: MISSED"}));
+  EXPECT_EQ(targets.verdict()[0], "FAILED: 2 of 3 checks, see above");
 }
 
 TEST(Targets, WhatIsSetBesideATargetNeverFails) {

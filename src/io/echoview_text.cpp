@@ -7,7 +7,10 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <string_view>
 #include <vector>
+
+#include "base/utf8.h"
 
 namespace sonar {
 namespace {
@@ -26,7 +29,8 @@ std::string echoview_time(TimeNs time) {
 }
 
 /// A text of the file: one line.
-std::string one_line(std::string text) {
+std::string one_line(std::string_view words) {
+  std::string text = clean_utf8(words);
   std::ranges::replace_if(
       text, [](char c) { return static_cast<unsigned char>(c) < 0x20U; }, ' ');
   return text;
@@ -43,8 +47,9 @@ std::vector<Stretch> stretches(const ObservationProduct& product, std::int64_t s
   const int beams = product.grid->grid.beams();
   const RangeAxis& range = product.grid->range;
   std::vector<Stretch> out;
-  for (const SchoolMask& mask : product.masks) {
-    if (mask.school_id != school || mask.ping_index < 0 || mask.ping_index >= std::ssize(product.pings)) continue;
+  // Masks are sorted by school: of a large survey only this one's are looked at.
+  for (const SchoolMask& mask : std::ranges::equal_range(product.masks, school, {}, &SchoolMask::school_id)) {
+    if (mask.ping_index < 0 || mask.ping_index >= std::ssize(product.pings)) continue;
     int first = range.count;
     int end = 0;
     for (const Run& run : mask.mask.runs) {

@@ -15,6 +15,7 @@
 
 #include "base/number_text.h"
 #include "base/units.h"
+#include "base/utf8.h"
 
 namespace sonar {
 namespace {
@@ -55,7 +56,7 @@ constexpr std::array kCodes = {kLocation, kBeamType, kCalibrated, kCalibration, 
 std::string id_of(const Code& code) { return fmt::format("{}_{}", code.list, code.code); }
 
 void add(Xml parent, const char* name, const std::string& text) {
-  parent.append_child(name).append_child(pugi::node_pcdata).set_value(text.c_str());
+  parent.append_child(name).append_child(pugi::node_pcdata).set_value(clean_utf8(text).c_str());
 }
 void refer(Xml parent, const char* name, const std::string& id) {
   parent.append_child(name).append_attribute("IDREF") = id.c_str();
@@ -144,19 +145,21 @@ struct Channel {
 };
 using Channels = std::map<double, Channel>;  ///< by their tops
 
-Channels channels_of(const EffortRow& unit, std::span<const NascRow> nasc, IcesPart part) {
-  Channels channels;
+/// By transect and EDSU.
+std::map<std::pair<std::string_view, std::int64_t>, Channels> channels_of(std::span<const NascRow> nasc,
+                                                                          IcesPart part) {
+  std::map<std::pair<std::string_view, std::int64_t>, Channels> units;
   for (const NascRow& row : nasc) {
     const double value = part == IcesPart::all ? row.nasc_m2_nmi2 : row.nasc_school_m2_nmi2;
-    const bool of_unit = row.transect == unit.transect && row.edsu == unit.edsu;
-    if (!of_unit || !(row.volume_m3 > 0.0) || !(row.height_m > 0.0) || !std::isfinite(value)) continue;
-    Channel& channel = channels[row.depth_from_m];
+    const bool told = std::isfinite(value) && std::isfinite(row.depth_from_m);
+    if (!told || !(row.volume_m3 > 0.0) || !(row.height_m > 0.0)) continue;
+    Channel& channel = units[{row.transect, row.edsu}][row.depth_from_m];
     channel.to_m = row.depth_to_m;
     channel.volume_m3 += row.volume_m3;
     channel.height_m = std::max(channel.height_m, row.height_m);
     channel.nasc_volume += value / row.height_m * row.volume_m3;
   }
-  return channels;
+  return units;
 }
 
 void add_sample(Xml log, double from_m, const Channel& channel, double distance_nmi) {
@@ -188,6 +191,7 @@ void add_cruise(Xml root, const ObservationProduct& product, std::span<const Eff
   add(cruise, "StartDate", day(effort.front().first_time_utc));
   add(cruise, "EndDate", day(effort.back().last_time_utc));
   add(cruise, "LocalID", product.title);
+  const auto units = channels_of(nasc, part);
   double sailed_nmi = 0.0;
   for (const EffortRow& unit : effort) {
     const double middle_nmi = sailed_nmi + unit.distance_nmi / 2.0;
@@ -201,9 +205,9 @@ void add_cruise(Xml root, const ObservationProduct& product, std::span<const Eff
     add(log, "Longitude", degrees_text(unit.longitude));
     refer(log, "Origin", kOrigin);
     refer(log, "Validity", kValidity);
-    for (const auto& [from_m, channel] : channels_of(unit, nasc, part)) {
-      add_sample(log, from_m, channel, unit.distance_nmi);
-    }
+    const auto channels = units.find({unit.transect, unit.edsu});
+    if (channels == units.end()) continue;
+    for (const auto& [from_m, channel] : channels->second) add_sample(log, from_m, channel, unit.distance_nmi);
   }
 }
 

@@ -7,7 +7,9 @@
 namespace sonar {
 namespace {
 
-bool placed(const PingNavigation& ping) { return ping.has_position() && std::isfinite(ping.heading_deg); }
+bool placed(const PingNavigation& ping) {
+  return ping.has_position() && std::isfinite(ping.heading_deg) && std::isfinite(ping.transducer_depth_m);
+}
 
 }  // namespace
 

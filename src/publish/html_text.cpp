@@ -12,51 +12,16 @@
 #include <vector>
 
 #include "base/number_text.h"
+#include "base/utf8.h"
 #include "io/column_words.h"
 #include "render/draw_frame.h"
 
 namespace sonar {
 namespace {
 
-constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  ///< U+FFFD
-constexpr double kPixelsOfPrint = 2.0;                     ///< about 200 dots an inch over an A4 page
+constexpr double kPixelsOfPrint = 2.0;  ///< about 200 dots an inch over an A4 page
 
 unsigned byte_at(std::string_view text, std::size_t i) { return static_cast<unsigned char>(text[i]); }
-
-/// Bytes of the sound UTF-8 character that begins there; 0 = none does. Overlong forms, surrogates and what lies beyond
-/// U+10FFFF are none.
-std::size_t character_bytes(std::string_view text, std::size_t at) {
-  const unsigned lead = byte_at(text, at);
-  if (lead < 0x80U) return 1;
-  const std::size_t length = lead >= 0xF0U ? 4 : lead >= 0xE0U ? 3 : 2;
-  if (lead < 0xC2U || lead > 0xF4U || text.size() - at < length) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte_at(text, at + i) & 0xC0U) != 0x80U) return 0;
-  }
-  const unsigned second = byte_at(text, at + 1);
-  const bool sound = !(lead == 0xE0U && second < 0xA0U) && !(lead == 0xEDU && second > 0x9FU) &&
-                     !(lead == 0xF0U && second < 0x90U) && !(lead == 0xF4U && second > 0x8FU);
-  return sound ? length : 0;
-}
-
-/// Of one ASCII character.
-std::string_view escaped(const char& c) {
-  switch (c) {
-    case '&':
-      return "&amp;";
-    case '<':
-      return "&lt;";
-    case '>':
-      return "&gt;";
-    case '"':
-      return "&quot;";
-    case '\'':
-      return "&#39;";
-    default:
-      return (static_cast<unsigned char>(c) < 0x20U && c != '\t' && c != '\n') || c == 0x7F ? kReplacement
-                                                                                            : std::string_view(&c, 1);
-  }
-}
 
 /// Empty where the field is no plain number.
 std::optional<double> number_in(std::string_view field) {
@@ -66,16 +31,16 @@ std::optional<double> number_in(std::string_view field) {
 }
 
 /// Five digits are more than any figure has; whole numbers stay whole, and places to a metre.
-std::string number_text(std::string_view field, double value) {
+std::string number_text(std::string_view column, std::string_view field, double value) {
   if (field.find_first_of(".eE") == std::string_view::npos) return std::string(field);
-  const bool place = std::abs(value) < 1000.0 && field.size() - std::min(field.size(), field.find('.')) == 9;
+  const bool place = column.ends_with("latitude") || column.ends_with("longitude");
   return place ? fmt::format("{:.5f}", value) : fmt::format("{:.5g}", value);
 }
 
-std::string cell(std::string_view field) {
+std::string cell(std::string_view column, std::string_view field) {
   const auto number = number_in(field);
   if (!number) return "<td>" + html_escaped(field) + "</td>";
-  return "<td class=\"n\">" + html_escaped(number_text(field, *number)) + "</td>";
+  return "<td class=\"n\">" + html_escaped(number_text(column, field, *number)) + "</td>";
 }
 
 std::vector<std::size_t> columns_with_values(const CsvTable& table) {
@@ -101,15 +66,26 @@ std::string head_cell(const std::string& name) {
 
 std::string html_escaped(std::string_view text) {
   std::string out;
-  out.reserve(text.size());
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = character_bytes(text, at);
-    if (length == 1) {
-      out += escaped(text[at]);
-    } else {
-      out += length == 0 ? kReplacement : text.substr(at, length);
+  for (const char c : clean_utf8(text)) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
     }
-    at += std::max<std::size_t>(1, length);
   }
   return out;
 }
@@ -152,7 +128,7 @@ std::string html_table(const CsvTable& table, std::string_view caption, std::siz
   out += "</tr></thead>\n<tbody>\n";
   for (std::size_t r = 0; r < rows; ++r) {
     out += "<tr>";
-    for (const std::size_t i : shown) out += cell(table.records[r].fields[i]);
+    for (const std::size_t i : shown) out += cell(table.header[i], table.records[r].fields[i]);
     out += "</tr>\n";
   }
   out += "</tbody></table></div>\n";

@@ -22,8 +22,17 @@ TEST(HtmlText, WhatIsNoUtf8IsReplaced) {
   EXPECT_EQ(html_escaped("\xC0\xBC"), "\uFFFD\uFFFD") << "an overlong <";
   EXPECT_EQ(html_escaped("\xED\xA0\x80"), "\uFFFD\uFFFD\uFFFD") << "a surrogate";
   EXPECT_EQ(html_escaped("\xE2\x88<"), "\uFFFD\uFFFD&lt;") << "cut off before markup";
+  EXPECT_EQ(html_escaped("a\xEF\xBF\xBE\xEF\xBF\xBFz"), "a\uFFFD\uFFFD\uFFFD\uFFFD\uFFFD\uFFFDz") << "no characters";
   EXPECT_EQ(html_escaped("\xF4\x90\x80\x80"), "\uFFFD\uFFFD\uFFFD\uFFFD") << "beyond U+10FFFF";
   EXPECT_EQ(html_escaped("\xF0\x9F\x90\x9F"), "\xF0\x9F\x90\x9F") << "a fish";
+}
+
+// Five digits of what is small too, though it has as many decimals as a place.
+TEST(HtmlText, PlacesAreToldToAMetreAndFiguresToFiveDigits) {
+  const auto table = parse_csv("mass_latitude,sigma\n59.12345678,0.00123456\n", "a test");
+  ASSERT_TRUE(table);
+  const std::string text = html_table(*table, "", 1);
+  EXPECT_THAT(text, HasSubstr("<td class=\"n\">59.12346</td><td class=\"n\">0.0012346</td>"));
 }
 
 TEST(HtmlText, Base64HasTheVectorsOfRfc4648) {

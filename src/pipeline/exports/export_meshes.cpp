@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "io/atomic_file.h"
@@ -44,8 +46,10 @@ Result<Meshes> meshes_of(const ObservationProduct& product, const Work& work) {
     const auto mask = std::ranges::find_if(product.masks, [&](const SchoolMask& m) {
       return m.school_id == row->school_id && m.ping_index == row->ping_index;
     });
-    const auto into = frame->ping(product.pings[static_cast<std::size_t>(row->ping_index)]);
-    if (mask == product.masks.end() || !into) continue;
+    // A mask lies in a ping that is there; a row of a table may name any.
+    if (mask == product.masks.end()) continue;
+    const auto into = frame->ping(product.pings[static_cast<std::size_t>(mask->ping_index)]);
+    if (!into) continue;
     SurfaceMesh<Enu> mesh = moved(mask_surface(mask->mask, sector), *into);
     if (mesh.triangles.empty()) continue;
     out.meshes.push_back(
@@ -73,9 +77,12 @@ Result<std::vector<fs::path>> export_glb(const ObservationProduct& product, cons
   std::vector<fs::path> files;
   if (meshes->meshes.empty()) return files;
   files.push_back(dest / (product.observation + ".glb"));
-  if (auto written = write_file(files.back(), glb_bytes(meshes->meshes, meshes->origin)); !written) {
-    return pass_on(written);
+  const std::string bytes = glb_bytes(meshes->meshes, meshes->origin);
+  if (bytes.size() > std::numeric_limits<std::uint32_t>::max()) {
+    return fail(ErrorCode::unsupported, "the surfaces need more than the 4 GB of a .glb; ply has a file for each",
+                {.file = files.back().string()});
   }
+  if (auto written = write_file(files.back(), bytes); !written) return pass_on(written);
   return files;
 }
 

@@ -20,6 +20,7 @@ namespace sonar {
                                                                     const std::filesystem::path& dest,
                                                                     const Work& work);
 /// DEST/obs-0001.glb, with a node a school; no file where none has a surface.
+/// errors   also unsupported: more than the 4 GB that the format holds
 [[nodiscard]] Result<std::vector<std::filesystem::path>> export_glb(const ObservationProduct& product,
                                                                     const std::filesystem::path& dest,
                                                                     const Work& work);
