@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "geo/frames.h"
@@ -23,7 +24,8 @@ class Refraction {
 
   /// Of a place on the straight path, in a level frame with its origin at the transducer, the place on the ray.
   [[nodiscard]] Point<Sonar> bent(const Point<Sonar>& straight) const;
-  /// The other way. Where rays cross, the place that is nearest to the straight path.
+  /// The other way. Where rays cross, the ray whose elevation is nearest to that of the straight path; where none comes, the
+  /// one that passes nearest above or below.
   [[nodiscard]] Point<Sonar> straightened(const Point<Sonar>& bent) const;
 
  private:
@@ -31,6 +33,15 @@ class Refraction {
     float distance_m = 0.0F;
     float down_m = 0.0F;
   };
+  /// How far along the ray of a row a level distance lies, and by how much it runs too deep there.
+  struct Miss {
+    double range_m = 0.0;
+    double down_m = 0.0;
+  };
+  [[nodiscard]] Miss miss(std::size_t row, double level_m, double down_m) const;
+  /// Straightened by a look at all rays, where neighbouring ones part or cross so much that rounds lead nowhere.
+  [[nodiscard]] Point<Sonar> searched(const Point<Sonar>& bent) const;
+
   double step_m_;
   std::vector<Offset> offsets_;  ///< [elevation, rising][range], of the ray from the straight path
 };

@@ -50,6 +50,19 @@ TEST(Refraction, StraightensWhatItBends) {
   }
 }
 
+// Level rays over a thermocline part and cross: what is straightened is bent to where it was, along one of the rays that come there.
+TEST(Refraction, StraightensWhereRaysCross) {
+  const Refraction refraction(kSummer, 7.0, 1480.0, 500.0);
+  for (double elevation_deg = -5.0; elevation_deg < 2.0; elevation_deg += 0.0731) {
+    for (const double range_m : {60.0, 250.0, 333.3, 480.0}) {
+      const Point<Sonar> there = refraction.bent(Sector::direction(elevation_deg * kDegree, 1.0) * range_m);
+      const Point<Sonar> straight = refraction.straightened(there);
+      EXPECT_NEAR(norm(refraction.bent(straight) - there), 0.0, 0.01) << elevation_deg << ' ' << range_m;
+      EXPECT_NEAR(std::remainder(std::atan2(straight.y, straight.x) - 1.0, 2 * std::numbers::pi), 0.0, 1e-9);
+    }
+  }
+}
+
 // A placement that knows rays levels by them, after roll and pitch; without them all stays as it is.
 TEST(Refraction, EntersWherePlacesAreLevelled) {
   Placement placement{.transducer = {60.0, 4.0}, .heading_rad = 1.0, .transducer_depth_m = 7.0};

@@ -95,8 +95,8 @@ void keep_quieter(View3<const std::int16_t> own, double quiet_db, View3<std::int
 /// Relative standard deviation of a level over several pings that holds noise alone, by how far the levels of each lie from
 /// those of all: most blocks hold little else, and it is in there how far along the beam neighbouring samples are alike. A few
 /// disturbed pings change it little. Of one or two pings, what independent samples would have.
-/// in      pings as for levels_over_pings(), levels what that makes of them; not asked for with de_robertis
-/// samples of a beam
+/// in      pings as for levels_over_pings(), levels what that makes of them by low_quantile
+/// samples  of a beam
 [[nodiscard]] double level_spread(std::span<const Array3<std::int16_t>* const> pings, View3<const std::int16_t> levels,
                                   int samples, const BackgroundParams& params);
 
