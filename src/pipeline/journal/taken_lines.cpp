@@ -9,6 +9,7 @@
 
 #include "io/atomic_file.h"
 #include "pipeline/journal/journals.h"
+#include "pipeline/journal/named_lock.h"
 
 namespace sonar {
 namespace {
@@ -20,11 +21,16 @@ auto identity_of(const JournalLine& line) {
   return std::tuple(line.decided, line.ping_time, line.operator_name, line.command, line.args.dump());
 }
 
-Result<fs::path> next_journal(const fs::path& folder) {
+/// The first that nobody has, held so that nobody begins it meanwhile.
+Result<fs::path> next_journal(const fs::path& folder, const JournalLine& first, NamedLock& lock) {
   for (std::int64_t number = 1; number <= kMostJournals; ++number) {
     fs::path path = journal_name(folder, number);
     std::error_code absent;
-    if (!fs::exists(fs::symlink_status(path, absent))) return path;
+    if (fs::exists(fs::symlink_status(path, absent))) continue;
+    const auto taken = lock.take(journal_lock(path), first.operator_name, first.decided);
+    if (!taken) return pass_on(taken);
+    if (taken->held_by.empty() && !fs::exists(fs::symlink_status(path, absent))) return path;
+    lock.let_go();
   }
   return fail(ErrorCode::io, "has no room for one more journal", {folder.string()});
 }
@@ -54,7 +60,8 @@ Result<TakenLines> take_lines(const JournalPlace& place, const fs::path& from) {
   if (lines.empty()) return taken;
   std::set<std::string> operators;
   for (const JournalLine& line : lines) operators.insert(line.operator_name);
-  auto path = next_journal(place.folders.back());
+  NamedLock lock;
+  auto path = next_journal(place.folders.back(), lines.front(), lock);
   if (!path) return pass_on(path);
   const std::string text = text_of(place.journal, lines);
   if (auto written = write_file(*path, text, Beside::own_folder); !written) return pass_on(written);
