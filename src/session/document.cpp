@@ -12,6 +12,7 @@
 #include "base/number_text.h"
 #include "base/within_memory.h"
 #include "pipeline/journal/journals.h"
+#include "pipeline/journal/manual.h"
 #include "pipeline/journal/session_recipe.h"
 #include "pipeline/journal/taken_lines.h"
 #include "pipeline/tasks/work_folders.h"
@@ -167,7 +168,7 @@ void Document::read(Opening what) {
     auto survey = survey_of(*named, recipe, work);
     if (!survey) return end_with(survey.error(), token, opening);
     const auto files = std::make_shared<const SurveyFiles>(std::move(survey->survey));
-    auto place = placed(*named, folders, head_of(*files, recipe));
+    auto place = placed(*named, folders, *files, recipe);
     if ((asked || of_run) && place) {
       const auto kept = keep_recipe(place->path.parent_path(), recipe);
       if (!kept) place->notices.push_back("the recipe is not kept: " + to_line(kept.error()));
@@ -192,7 +193,12 @@ void Document::read(Opening what) {
 
 /// Where the journal goes, with what humans had decided of the results that are opened, told in one notice.
 Result<JournalPlace> Document::placed(const NamedToOpen& named, const std::vector<std::filesystem::path>& folders,
-                                      const Journal& head) const {
+                                      const SurveyFiles& files, const Recipe& recipe) const {
+  const Journal head = head_of(files, recipe);
+  const auto has_ping = [&files](TimeNs time) {
+    return std::ranges::any_of(files.observations,
+                               [&](const ObservationFiles& one) { return ping_at(files, one, time).has_value(); });
+  };
   auto place = place_journal(folders, head, options_.operator_name);
   if (!place) return place;
   std::vector<std::filesystem::path> sessions;
@@ -205,7 +211,7 @@ Result<JournalPlace> Document::placed(const NamedToOpen& named, const std::vecto
   std::vector<std::string> notices;
   bool taken = false;
   for (const auto& session : sessions) {
-    const auto lines = take_lines(*place, session);
+    const auto lines = take_lines(*place, session, has_ping);
     if (!lines) notices.push_back("decisions of the results are not taken over: " + to_line(lines.error()));
     if (!lines || lines->lines == 0) continue;
     taken = true;

@@ -211,7 +211,7 @@ class Document {
   void glance_at(const std::vector<std::filesystem::path>& paths, const Recipe& recipe, Work& work,
                  const CancelToken& token);
   [[nodiscard]] Result<JournalPlace> placed(const NamedToOpen& named, const std::vector<std::filesystem::path>& folders,
-                                            const Journal& head) const;
+                                            const SurveyFiles& files, const Recipe& recipe) const;
   void add_sessions_beside(const std::filesystem::path& home, const std::vector<std::filesystem::path>& folders,
                            std::vector<std::filesystem::path>& sessions) const;
   [[nodiscard]] Result<ResultsAlone> survey_of(const NamedToOpen& named, const Recipe& recipe, Work& work) const;

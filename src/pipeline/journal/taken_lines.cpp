@@ -49,12 +49,14 @@ std::string text_of(const Journal& head, std::vector<JournalLine> lines) {
 
 }  // namespace
 
-Result<TakenLines> take_lines(const JournalPlace& place, const fs::path& from) {
+Result<TakenLines> take_lines(const JournalPlace& place, const fs::path& from,
+                              const std::function<bool(TimeNs)>& has_ping) {
   const auto session = read_session(from);
   if (!session) return pass_on(session);
   std::set<decltype(identity_of(JournalLine{}))> known;
   for (const JournalLine& line : place.lines) known.insert(identity_of(line));
   std::vector<JournalLine> lines = effective_lines(session->lines);
+  if (std::ranges::none_of(lines, [&](const JournalLine& line) { return has_ping(line.ping_time); })) lines.clear();
   std::erase_if(lines, [&](const JournalLine& line) { return known.contains(identity_of(line)); });
   TakenLines taken;
   if (lines.empty()) return taken;
