@@ -241,6 +241,7 @@ Result<void> PictureSource::require_outside_raw(const fs::path& file) const {
 }
 
 Result<DrawnObservation*> PictureSource::observation(std::string_view name) {
+  if (observations_.empty()) return fail(ErrorCode::usage, "nothing to draw: no schools are known yet");
   if (name.empty()) return &observations_.front();
   std::string known;
   for (DrawnObservation& observation : observations_) {

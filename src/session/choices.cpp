@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -156,6 +157,12 @@ JournalStatePtr Choices::base_of(const OnObservation& of, const std::vector<Jour
   return std::make_shared<const JournalState>(asked ? of.detected : JournalState{});
 }
 
+/// Of what a line says nothing of the state stays the same one: nobody has to measure or draw it again.
+JournalStatePtr Choices::after(const ReadLine& line, const OnObservation& of) {
+  if (line.act && !holds_here(*line.act, of.observation->context())) return of.state;
+  return std::make_shared<const JournalState>(fold({&line, 1}, *of.state, of.context()));
+}
+
 bool Choices::asks_to_detect(std::int64_t n) const {
   const auto& lines = place_.lines;
   return std::any_of(lines.begin(), lines.end(),
@@ -187,7 +194,7 @@ void Choices::rebuild() {
     const ReadLine& act = read(line);
     for (auto& [index, of] : open_) {
       turn.before[index] = of.state;
-      of.state = std::make_shared<const JournalState>(fold({&act, 1}, *of.state, of.context()));
+      of.state = after(act, of);
       turn.after[index] = of.state;
     }
     if (act.act) turn.name = name_of(*act.act, turn);
@@ -212,7 +219,7 @@ void Choices::rebuild(std::size_t index) {
     tell_replayed(i, lines.size());
     const ReadLine& act = read(lines[i]);
     done_[i].before[index] = of.state;
-    of.state = std::make_shared<const JournalState>(fold({&act, 1}, *of.state, of.context()));
+    of.state = after(act, of);
     done_[i].after[index] = of.state;
     if (act.act) done_[i].name = name_of(*act.act, done_[i]);
     names_[done_[i].n] = done_[i].name;
@@ -288,7 +295,7 @@ Result<std::int64_t> Choices::carry_out_upon(std::vector<Turn>& replaced, std::s
   act = std::move(applied->act);
   turn.after[observation] = std::make_shared<const JournalState>(std::move(applied->state));
   for (const auto& [index, of] : open_) {
-    if (index == observation) continue;
+    if (index == observation || !holds_here(act, of.observation->context())) continue;
     // One that cannot be done there says nothing of that observation.
     auto other = apply(act, *of.state, of.context());
     if (other) turn.after[index] = std::make_shared<const JournalState>(std::move(*other));
@@ -310,15 +317,16 @@ Result<std::int64_t> Choices::carry_out_upon(std::vector<Turn>& replaced, std::s
   lines_read_.emplace(std::pair(line.n, line.decided), std::move(again));
   if (step != nullptr) step->first = line.step;
   turn.step = line.step;
-  if (asks_to_detect(act.n)) {
-    rebuild();  // what was found lies under every other line
-    return act.n;
-  }
   turn.name = name_of(act, turn);
   names_[act.n] = turn.name;
   for (const auto& [index, state] : turn.after) open_.at(index).state = state;
   done_.push_back(std::move(turn));
   undone_.clear();
+  if (line.command != "detect") return act.n;
+  // What was found lies under every other line; observations that it was not asked for stay as they are.
+  for (const auto& [index, of] : open_) {
+    if (asks_for_detection(std::span(&line, 1), of.observation->context().times)) rebuild(index);
+  }
   return act.n;
 }
 

@@ -135,6 +135,7 @@ class Choices {
   [[nodiscard]] const ReadLine& read(const JournalLine& line);
   [[nodiscard]] static JournalStatePtr base_of(const OnObservation& of, const std::vector<JournalLine>& lines);
   [[nodiscard]] bool asks_to_detect(std::int64_t n) const;
+  [[nodiscard]] static JournalStatePtr after(const ReadLine& line, const OnObservation& of);
   void rebuild();
   void rebuild(std::size_t index);
   void tell_replayed(std::size_t done, std::size_t total);

@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kLocks = "locks";  ///< folder beside the journals
-
 /// Of an observation: its names move on when files are added, its first ping stays.
 std::string lock_name(const SurveyFiles& survey, const ObservationFiles& observation) {
   std::string name = iso_time(survey.ping_time(observation, 0)) + "-" + observation.config.sounder_name;
@@ -86,8 +84,7 @@ Result<void> Choices::hold_journal() {
   if (place_.path.empty()) return fail(ErrorCode::io, "the journal can be kept nowhere: choices would be lost");
   while (!lock_.held()) {
     if (place_.may_write()) {
-      const fs::path file = place_.path.parent_path() / kLocks / (place_.path.filename().string() + ".lock");
-      auto taken = lock_.take(file, options_.operator_name, now());
+      auto taken = lock_.take(journal_lock(place_.path), options_.operator_name, now());
       if (!taken) return pass_on(taken);
       if (!taken->notice.empty()) notices_.push_back(taken->notice);
       if (taken->held_by.empty()) {

@@ -12,6 +12,7 @@
 #include "base/number_text.h"
 #include "base/within_memory.h"
 #include "pipeline/journal/journals.h"
+#include "pipeline/journal/manual.h"
 #include "pipeline/journal/session_recipe.h"
 #include "pipeline/journal/taken_lines.h"
 #include "pipeline/tasks/work_folders.h"
@@ -52,20 +53,21 @@ std::set<std::size_t> found_in(const std::vector<std::filesystem::path>& work_fo
   return found;
 }
 
-/// What the journal of a survey lies beside: its raw files, or, where even the folder above them is not here, its results.
-std::filesystem::path home_of(const NamedToOpen& named) {
-  if (!named.raw.empty()) return named.raw.front();
+/// Whether the folder is here that raw files lay in. An empty one may be where a disk is mounted: what is written there is
+/// out of sight when the disk is back.
+bool is_here(const std::filesystem::path& folder) {
   std::error_code absent;
-  const bool known =
-      !named.expected.empty() && std::filesystem::is_directory(named.expected.front().parent_path(), absent);
-  if (known) return named.expected.front();
-  return named.work_folders.empty() ? std::filesystem::path{} : named.work_folders.front();
+  return std::filesystem::is_directory(folder, absent) && !std::filesystem::is_empty(folder, absent) && !absent;
 }
 
-/// Whether the results are what decisions made of schools that were looked for: these have to be found again, for a
-/// product has them as the decisions left them.
-bool stand_on_detected(const NamedToOpen& named) {
-  return !named.sessions.empty() && named.recipe && named.recipe->automatic;
+/// What the journal of a survey lies beside: its raw files, or the place where they lay, or its results. These it is where
+/// they have decisions in them: the journal beside the raw files may be the one that these are of, and nothing is decided twice.
+std::filesystem::path home_of(const NamedToOpen& named) {
+  if (!named.raw.empty()) return named.raw.front();
+  const bool beside_raw =
+      named.sessions.empty() && !named.expected.empty() && is_here(named.expected.front().parent_path());
+  if (beside_raw) return named.expected.front();
+  return named.work_folders.empty() ? std::filesystem::path{} : named.work_folders.front();
 }
 
 /// "12 decisions of /data/session.jsonl (Ann, Bob) are taken over into session-2.jsonl; ...".
@@ -166,7 +168,7 @@ void Document::read(Opening what) {
     auto survey = survey_of(*named, recipe, work);
     if (!survey) return end_with(survey.error(), token, opening);
     const auto files = std::make_shared<const SurveyFiles>(std::move(survey->survey));
-    auto place = placed(*named, folders, head_of(*files, recipe));
+    auto place = placed(*named, folders, *files, recipe);
     if ((asked || of_run) && place) {
       const auto kept = keep_recipe(place->path.parent_path(), recipe);
       if (!kept) place->notices.push_back("the recipe is not kept: " + to_line(kept.error()));
@@ -191,16 +193,25 @@ void Document::read(Opening what) {
 
 /// Where the journal goes, with what humans had decided of the results that are opened, told in one notice.
 Result<JournalPlace> Document::placed(const NamedToOpen& named, const std::vector<std::filesystem::path>& folders,
-                                      const Journal& head) const {
+                                      const SurveyFiles& files, const Recipe& recipe) const {
+  const Journal head = head_of(files, recipe);
+  const auto has_ping = [&files](TimeNs time) {
+    return std::ranges::any_of(files.observations,
+                               [&](const ObservationFiles& one) { return ping_at(files, one, time).has_value(); });
+  };
   auto place = place_journal(folders, head, options_.operator_name);
-  // Without raw files their products, which have the decisions in them, are what is shown.
-  if (!place || !named.raw_gone.empty()) return place;
-  std::vector<std::filesystem::path> sessions = named.sessions;
+  if (!place) return place;
+  std::vector<std::filesystem::path> sessions;
+  // Without raw files their products, which have the run's decisions in them, are what is shown.
+  if (named.raw_gone.empty()) {
+    sessions = named.sessions;
+    for (const auto& raw : named.expected) add_sessions_beside(raw, folders, sessions);
+  }
   for (const auto& out : named.work_folders) add_sessions_beside(out, folders, sessions);
   std::vector<std::string> notices;
   bool taken = false;
   for (const auto& session : sessions) {
-    const auto lines = take_lines(*place, session);
+    const auto lines = take_lines(*place, session, has_ping);
     if (!lines) notices.push_back("decisions of the results are not taken over: " + to_line(lines.error()));
     if (!lines || lines->lines == 0) continue;
     taken = true;
@@ -212,11 +223,11 @@ Result<JournalPlace> Document::placed(const NamedToOpen& named, const std::vecto
   return place;
 }
 
-/// Where results are opened alone, decisions lie beside them.
-void Document::add_sessions_beside(const std::filesystem::path& out, const std::vector<std::filesystem::path>& folders,
+/// Where results are opened alone, decisions lie beside them, or beside the place where their raw files lay.
+void Document::add_sessions_beside(const std::filesystem::path& home, const std::vector<std::filesystem::path>& folders,
                                    std::vector<std::filesystem::path>& sessions) const {
   if (!options_.journal_folders) return;
-  for (const auto& beside : options_.journal_folders(out)) {
+  for (const auto& beside : options_.journal_folders(home)) {
     const bool ours = std::find(folders.begin(), folders.end(), beside) != folders.end();
     if (!ours && !journals_in(std::span(&beside, 1)).empty()) sessions.push_back(beside);
   }

@@ -93,6 +93,8 @@ class Document {
   void open_glanced(std::size_t observation);
   /// Why nothing of the survey is shown, in a line; empty where something is, or no survey is open.
   [[nodiscard]] std::string nothing_shown() const { return survey_->nothing_shown(); }
+  /// [observation] of results whose raw files are not here, as they were read; empty = pings can be read.
+  [[nodiscard]] const std::vector<ProductPtr>& results() const { return survey_->read_.products; }
   /// The survey's raw files, and folders of them.
   [[nodiscard]] const std::vector<std::filesystem::path>& paths() const { return survey_->read_.paths; }
   /// What open() was given: those, or work folders of runs on them.
@@ -209,8 +211,8 @@ class Document {
   void glance_at(const std::vector<std::filesystem::path>& paths, const Recipe& recipe, Work& work,
                  const CancelToken& token);
   [[nodiscard]] Result<JournalPlace> placed(const NamedToOpen& named, const std::vector<std::filesystem::path>& folders,
-                                            const Journal& head) const;
-  void add_sessions_beside(const std::filesystem::path& out, const std::vector<std::filesystem::path>& folders,
+                                            const SurveyFiles& files, const Recipe& recipe) const;
+  void add_sessions_beside(const std::filesystem::path& home, const std::vector<std::filesystem::path>& folders,
                            std::vector<std::filesystem::path>& sessions) const;
   [[nodiscard]] Result<ResultsAlone> survey_of(const NamedToOpen& named, const Recipe& recipe, Work& work) const;
   void end_with(const Error& error, const CancelToken& token, const OpeningPtr& opening);

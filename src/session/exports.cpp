@@ -36,6 +36,7 @@ struct Snapshot {
   std::map<std::size_t, JournalStatePtr> states;
   std::map<std::size_t, RefusedPtr> refused;
   std::map<std::size_t, ProductPtr> products;
+  std::vector<ProductPtr> results;  ///< see Document::results()
   std::vector<SurveyNumber> numbers;
   bool all_measured = false;
   std::vector<fs::path> paths;
@@ -53,6 +54,7 @@ Snapshot snapshot_of(const Workspace& workspace) {
                     document.choices().states,
                     {},
                     {},
+                    document.results(),
                     document.survey_numbers(),
                     document.all_measured(),
                     document.paths(),
@@ -72,16 +74,18 @@ Snapshot snapshot_of(const Workspace& workspace) {
 Result<ObservationProduct> product_of(const Snapshot& snapshot, const ReadJournal& journal, std::size_t index,
                                       Work& work) {
   const ObservationFiles& observation = snapshot.survey->observations[index];
-  if (!snapshot.survey->raw_gone.empty()) {
-    const auto known = snapshot.products.find(index);
-    if (known == snapshot.products.end()) return fail(ErrorCode::not_found, snapshot.survey->raw_gone);
-    return *known->second;
+  const auto state = snapshot.states.find(index);
+  const bool chosen = observation.grid && state != snapshot.states.end() && state->second;
+  if (!snapshot.results.empty()) {
+    const ObservationProduct& measured = *snapshot.results[index];
+    if (!chosen) return measured;
+    return state_product_of_results(Engine(*snapshot.survey, observation, snapshot.measuring), *state->second,
+                                    measured);
   }
   if (observation.grid) {
     if (auto room = room_for(observation, snapshot.memory_bytes); !room) return pass_on(room);
   }
-  const auto state = snapshot.states.find(index);
-  if (!observation.grid || state == snapshot.states.end() || !state->second) {
+  if (!chosen) {
     return observe(*snapshot.survey, observation, snapshot.recipe, {{}, journal, snapshot.program_version}, work);
   }
   Engine engine(*snapshot.survey, observation, snapshot.measuring);
@@ -167,7 +171,9 @@ std::unique_ptr<PictureSource> pictures_of(const Snapshot& snapshot) {
   std::vector<ObservationProduct> products;
   for (const auto& [index, product] : snapshot.products) products.push_back(*product);
   number_known(products, snapshot.numbers, snapshot.all_measured);
-  return PictureSource::of({std::shared_ptr<void>(), snapshot.survey}, std::move(products), snapshot.measuring);
+  // Without raw files pictures show what is known without samples, as those of a folder of results do.
+  const SurveyFiles* raw = snapshot.results.empty() ? snapshot.survey : nullptr;
+  return PictureSource::of({std::shared_ptr<void>(), raw}, std::move(products), snapshot.measuring);
 }
 
 std::string shown_name(const Workspace& workspace) {

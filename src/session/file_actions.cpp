@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -42,14 +44,31 @@ void open_files(AppModel& app) {
   if (!names.empty()) app.workspace.document.open({names.begin(), names.end()});
 }
 
-/// Beside the results that are open.
+/// Whether one of the raw files that results were made of lies in a folder, by its name; of results that name none
+/// nobody knows.
+bool may_hold_raw_of(const SurveyFiles& results, const fs::path& folder) {
+  std::set<fs::path> expected;
+  for (const SurveyFile& file : results.files) {
+    if (file.path.has_extension()) expected.insert(file.path.filename());
+  }
+  const auto there = list_survey(std::span(&folder, 1));
+  return expected.empty() || (there && std::ranges::any_of(*there, [&](const fs::path& file) {
+                                return expected.contains(file.filename());
+                              }));
+}
+
+/// Beside the results that are open. Another survey would be opened under their recipe.
 void find_raw(AppModel& app) {
   if (!app.dialogs.folder_to_open) return;
+  Document& document = app.workspace.document;
   const std::string folder = app.dialogs.folder_to_open();
-  if (folder.empty()) return;
-  std::vector<fs::path> named = app.workspace.document.named();
+  if (folder.empty() || document.survey() == nullptr) return;
+  if (!may_hold_raw_of(*document.survey(), folder)) {
+    return document.tell(folder + ": none of the raw files that the results were made of is here");
+  }
+  std::vector<fs::path> named = document.named();
   named.emplace_back(folder);
-  app.workspace.document.open(std::move(named));
+  document.open(std::move(named));
 }
 
 std::string recent_text(const AppModel& app, std::size_t at) {

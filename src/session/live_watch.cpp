@@ -54,7 +54,7 @@ void LiveWatch::set_on(bool on) {
     return changed_.tell();
   }
   const Document& document = workspace_.document;
-  if (document.survey() == nullptr) return;
+  if (document.survey() == nullptr || !document.survey()->raw_gone.empty()) return;
   const Recipe& recipe = document.recipe();
   survey_ = std::make_shared<LiveSurvey>(document.paths(), recipe.survey, recipe.navigation, document.options().cache);
   watched_ = std::make_shared<bool>(true);

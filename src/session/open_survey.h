@@ -58,7 +58,7 @@ struct SurveyRead {
   std::set<std::size_t> found{};  ///< observations whose schools those have as detect() would find them
   Result<JournalPlace> place = JournalPlace{};
   /// [observation] of results whose raw files are not here (SurveyFiles::raw_gone); empty = pings can be read.
-  std::vector<std::shared_ptr<const ObservationProduct>> products{};
+  std::vector<ProductPtr> products{};
 };
 
 /// One survey at work, from its opening until another takes its place: what is read and chosen of it, looked at and

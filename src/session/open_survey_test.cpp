@@ -53,6 +53,32 @@ TEST_F(OneSurveyAfterAnother, NothingOfASurveyReachesTheOneAfterIt) {
   EXPECT_EQ(document_.activity().stage, "");
 }
 
+// A survey of a hundred observations must not be measured anew at each act.
+TEST_F(OneSurveyAfterAnother, WhatIsDoneInOneObservationLeavesTheFiguresOfTheOthersAlone) {
+  open_easy();
+  document_.settle();
+  document_.detect({1});
+  document_.settle();
+  const ProductPtr other = document_.product(1);
+  const JournalStatePtr state = document_.choices().states.at(1);
+  ASSERT_FALSE(state->schools.empty());
+  document_.detect({0});
+  document_.settle();
+  ASSERT_FALSE(document_.state(0).schools.empty());
+  document_.act(0, 0, DeleteCommand{key_of(document_.state(0).schools.front()->masks, document_.shown()->context())});
+  document_.settle();
+  EXPECT_EQ(document_.choices().states.at(1), state);
+  EXPECT_EQ(document_.product(1), other);
+  const std::size_t left = document_.state(0).schools.size();
+  document_.undo();
+  document_.settle();
+  EXPECT_EQ(document_.state(0).schools.size(), left + 1);
+  EXPECT_EQ(document_.product(1), other);
+  document_.act(EventCommand{"trawl", document_.open_observation(1)->context().times[2], "haul 1"});
+  document_.settle();
+  EXPECT_NE(document_.choices().states.at(1), state) << "this is said of the other one";
+}
+
 TEST_F(OneSurveyAfterAnother, ARecipeThatIsChangedTwiceLeavesThePingThatWasLookedAt) {
   open_easy();
   document_.settle();

@@ -196,13 +196,16 @@ fs::path home_folder(const char* variable, const char* below_home) {
   return {};
 }
 
-/// The folder of a survey's raw files, links followed.
+/// The folder of a survey's raw files, links followed. What is gone is told by its name.
 fs::path raw_folder(const fs::path& survey) {
   std::error_code unknown;
   fs::path whole = fs::weakly_canonical(fs::absolute(survey, unknown), unknown);
   if (unknown || whole.empty()) whole = survey.lexically_normal();
   if (whole.filename().empty()) whole = whole.parent_path();
-  return fs::is_directory(whole, unknown) ? whole : whole.parent_path();
+  const fs::path ending = whole.extension();
+  const bool named_file = ending == ".raw" || ending == ".RAW" || ending == ".nc";
+  const bool file = fs::exists(whole, unknown) ? !fs::is_directory(whole, unknown) : named_file;
+  return file ? whole.parent_path() : whole;
 }
 
 }  // namespace

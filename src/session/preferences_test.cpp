@@ -220,6 +220,13 @@ TEST(FolderBeside, IsNamedAfterTheSurvey) {
   EXPECT_EQ(folder_beside("/", "-out"), "");
 }
 
+// Results are opened whose raw files are gone: two such surveys of one folder must not share a journal.
+TEST(FolderBeside, IsTheSameWhenTheRawFilesAreGone) {
+  const fs::path folder = fs::canonical(TestSurvey::easy().fresh());
+  EXPECT_EQ(folder_beside(folder / "leg.1", "-work"), folder / "leg.1-work");
+  EXPECT_EQ(folder_beside(folder / "leg.1" / "x.raw", "-work"), folder / "leg.1-work");
+}
+
 TEST(JournalFolders, AReadOnlyFolderLeadsToTheUsersOwn) {
   const fs::path folder = TestSurvey::easy().fresh();
   fs::create_directories(folder / "cruise");

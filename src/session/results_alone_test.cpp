@@ -2,6 +2,7 @@
 // Results of a run are looked at and reviewed where their raw files are gone.
 #include "pipeline/tasks/results_alone.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +13,9 @@
 
 #include "pipeline/stages/detected_cache.h"
 #include "pipeline/tasks/work_folders.h"
+#include "session/exports.h"
+#include "session/live_watch.h"
+#include "session/preferences.h"
 #include "session/test_app.h"
 #include "session/test_run.h"
 
@@ -148,6 +152,126 @@ TEST_F(ResultsWithoutRaw, AskWhereTheRawFilesLieNow) {
   EXPECT_EQ(document().paths(), std::vector<fs::path>{raw_});
   EXPECT_EQ(document().state(0).schools.size(), 2U);
   EXPECT_FALSE(app_->actions.find("file.find_raw")->enabled());
+}
+
+TEST_F(ResultsWithoutRaw, AreNotOpenedUponTheRawFilesOfAnotherSurvey) {
+  open({out_});
+  const fs::path other = TestSurvey::easy().fresh();
+  std::ofstream(other / "other.raw") << "x";
+  app_->dialogs.folder_to_open = [&] { return other.string(); };
+  press("file.find_raw");
+  document().settle();
+  EXPECT_THAT(document().notices().back(), HasSubstr(other.string()));
+  EXPECT_EQ(document().named(), std::vector<fs::path>{out_});
+}
+
+TEST_F(ResultsWithoutRaw, AreNoRecordingToFollow) {
+  open({out_});
+  EXPECT_FALSE(app_->actions.find("file.live")->enabled());
+  app_->live->set_on(true);
+  EXPECT_FALSE(app_->live->on());
+}
+
+TEST_F(ResultsWithoutRaw, AreWrittenAsTheyWereDecided) {
+  open({out_});
+  Decision decision;
+  decision.species = "herring";
+  decide_on(workspace(), {survey_schools(document()).front()}, decision);
+  document().settle();
+  const fs::path written = TestSurvey::easy().fresh() / "written";
+  export_results(workspace(), written);
+  document().settle();
+  EXPECT_THAT(document().notices().back(), HasSubstr("written: 2 observations"));
+  const auto product =
+      kept_detected(product_path(written, plan_.tasks[0].observation), "");  // no run takes it for its own
+  ASSERT_TRUE(product);
+  EXPECT_EQ(product->schools.front().species, "herring");
+  EXPECT_EQ(product->schools.front().backscatter_m2, product_of(0).schools.front().backscatter_m2);
+}
+
+TEST_F(ResultsWithoutRaw, AreDrawnWithoutSamples) {
+  open({out_});
+  const fs::path folder = TestSurvey::easy().fresh();
+  for (const PictureKind kind : {PictureKind::survey_map, PictureKind::slice_top, PictureKind::timeline}) {
+    const fs::path file = folder / fmt::format("{}.png", static_cast<int>(kind));
+    save_picture(workspace(), kind, file);
+    document().settle();
+    EXPECT_TRUE(fs::exists(file)) << document().notices().back();
+  }
+}
+
+/// Journals lie where the program puts them.
+class JournalsOfResults : public ResultsWithoutRaw {
+ protected:
+  void open_beside(std::vector<fs::path> paths) {
+    DocumentOptions options = TestSurvey::options({});
+    options.journal_folders = [](const fs::path& survey) { return std::vector{folder_beside(survey, "-work")}; };
+    app_ = std::make_unique<AppModel>(queue_, options);
+    document().open(std::move(paths));
+    document().settle();
+  }
+  void plan_says(const fs::path& survey, const fs::path& session) {
+    plan_.survey = {survey.string()};
+    plan_.session = session.string();
+    std::ofstream(out_ / "plan.json") << plan_text(plan_);
+  }
+  void call_herring() {
+    Decision decision;
+    decision.species = "herring";
+    decide_on(workspace(), {survey_schools(document()).front()}, decision);
+    document().settle();
+  }
+  [[nodiscard]] std::string species() { return document().state(0).schools.front()->masks.decided.species; }
+
+  fs::path disk_ = fs::canonical(TestSurvey::easy().fresh());
+};
+
+TEST_F(JournalsOfResults, DecisionsAtTheOldPlaceComeAlongToWhereTheRawFilesAreFound) {
+  std::ofstream(disk_ / "note.txt") << "the disk is here";
+  plan_says(disk_ / "leg-1", {});
+  open_beside({out_});
+  EXPECT_EQ(document().journal_path(), disk_ / "leg-1-work" / "session.jsonl");
+  call_herring();
+  fs::copy(raw_, disk_ / "moved");
+  open_beside({out_, disk_ / "moved"});
+  ASSERT_TRUE(document().staged());
+  EXPECT_EQ(document().journal_path().parent_path(), disk_ / "moved-work");
+  EXPECT_EQ(species(), "herring");
+}
+
+TEST_F(JournalsOfResults, ADiskThatIsNotMountedIsNotWrittenTo) {
+  plan_says(disk_ / "leg-1", {});
+  open_beside({out_});
+  EXPECT_EQ(document().journal_path().parent_path(), folder_beside(out_, "-work"));
+  EXPECT_TRUE(fs::is_empty(disk_));
+}
+
+TEST_F(JournalsOfResults, WhatTheRunWasGivenIsNotDecidedTwice) {
+  std::ofstream(disk_ / "note.txt") << "the disk is here";
+  const fs::path given = disk_ / "leg-1-work";
+  plan_says(disk_ / "leg-1", {});
+  open_beside({out_});
+  call_herring();
+  ASSERT_EQ(document().journal_path().parent_path(), given);
+  plan_says(disk_ / "leg-1", given);
+  open_beside({out_});
+  EXPECT_EQ(document().journal_path().parent_path(), folder_beside(out_, "-work"));
+  EXPECT_TRUE(std::ranges::none_of(*document().choices().lines,
+                                   [](const JournalLine& line) { return is_decision(line.command); }));
+}
+
+TEST_F(ResultsWithoutRaw, OfTwoSurveysAreNotMixed) {
+  const fs::path other = TestSurvey::easy().fresh();
+  Recipe recipe;
+  recipe.navigation.time_offset_s = 2.5;  // the same names, other pings
+  ASSERT_TRUE(run_easy(other, recipe));
+  Work work;
+  const std::vector<fs::path> folders{out_, other};
+  const auto results = open_results(folders, "gone", work);
+  ASSERT_FALSE(results);
+  EXPECT_EQ(results.error().code, ErrorCode::mismatch);
+  const std::vector<fs::path> twice{out_, out_};
+  EXPECT_TRUE(open_results(twice, "gone", work));
 }
 
 TEST_F(ResultsWithoutRaw, WithoutAPlanAreOpenedToo) {

@@ -63,7 +63,8 @@ bool meets(const CommandContext& context, const TimeSpan& span) {
   return !context.times.empty() && span.first <= context.times.back() && span.last >= context.times.front();
 }
 
-/// Whether an act says something about these pings.
+}  // namespace
+
 bool holds_here(const JournalAct& act, const CommandContext& context) {
   const About what = about(act.command);
   if (what == About::ping) return ping_at(context, act.ping_time).has_value();
@@ -71,8 +72,6 @@ bool holds_here(const JournalAct& act, const CommandContext& context) {
   const std::vector<TimeSpan> spans = spoken_times(act.command);
   return std::ranges::any_of(spans, [&](const TimeSpan& span) { return meets(context, span); });
 }
-
-}  // namespace
 
 Result<void> carry_out(Edit& edit, const PropagateCommand& command) {
   std::optional<std::size_t> school;

@@ -57,6 +57,9 @@ struct JournalState {
 /// there before, so that finding schools renames none.
 [[nodiscard]] JournalState state_before_detection(std::vector<SchoolMasks> schools);
 
+/// Whether an act says something about the pings of an observation; one that does not leaves every state of it as it is.
+[[nodiscard]] bool holds_here(const JournalAct& act, const CommandContext& context);
+
 /// The state after one more act. An act on other pings changes nothing.
 /// errors   bad_parameter: what it needs is not there, in one line; those of the pings. The state stands.
 /// threads  pure, as far as context.ping is

@@ -55,6 +55,10 @@ fs::path journal_name(const fs::path& folder, std::int64_t number) {
   return folder / (number == 1 ? "session.jsonl" : fmt::format("session-{}.jsonl", number));
 }
 
+fs::path journal_lock(const fs::path& journal) {
+  return journal.parent_path() / kLocks / (journal.filename().string() + ".lock");
+}
+
 std::vector<OneJournal> journals_in(std::span<const fs::path> folders) {
   std::vector<OneJournal> journals;
   for (std::int64_t f = 0; f < std::ssize(folders); ++f) {

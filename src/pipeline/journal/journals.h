@@ -23,6 +23,10 @@ struct OneJournal {
 /// A journal in a folder may have numbers 1 to this.
 inline constexpr std::int64_t kMostJournals = 1000;
 [[nodiscard]] std::filesystem::path journal_name(const std::filesystem::path& folder, std::int64_t number);
+/// A file that is there while a program writes a journal.
+[[nodiscard]] std::filesystem::path journal_lock(const std::filesystem::path& journal);
+/// Where such files lie, beside the journals.
+inline constexpr const char* kLocks = "locks";
 /// Those that are there, links among them, in the order of folders and numbers.
 [[nodiscard]] std::vector<OneJournal> journals_in(std::span<const std::filesystem::path> folders);
 

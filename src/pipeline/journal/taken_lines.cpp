@@ -9,6 +9,7 @@
 
 #include "io/atomic_file.h"
 #include "pipeline/journal/journals.h"
+#include "pipeline/journal/named_lock.h"
 
 namespace sonar {
 namespace {
@@ -20,11 +21,16 @@ auto identity_of(const JournalLine& line) {
   return std::tuple(line.decided, line.ping_time, line.operator_name, line.command, line.args.dump());
 }
 
-Result<fs::path> next_journal(const fs::path& folder) {
+/// The first that nobody has, held so that nobody begins it meanwhile.
+Result<fs::path> next_journal(const fs::path& folder, const JournalLine& first, NamedLock& lock) {
   for (std::int64_t number = 1; number <= kMostJournals; ++number) {
     fs::path path = journal_name(folder, number);
     std::error_code absent;
-    if (!fs::exists(fs::symlink_status(path, absent))) return path;
+    if (fs::exists(fs::symlink_status(path, absent))) continue;
+    const auto taken = lock.take(journal_lock(path), first.operator_name, first.decided);
+    if (!taken) return pass_on(taken);
+    if (taken->held_by.empty() && !fs::exists(fs::symlink_status(path, absent))) return path;
+    lock.let_go();
   }
   return fail(ErrorCode::io, "has no room for one more journal", {folder.string()});
 }
@@ -43,18 +49,21 @@ std::string text_of(const Journal& head, std::vector<JournalLine> lines) {
 
 }  // namespace
 
-Result<TakenLines> take_lines(const JournalPlace& place, const fs::path& from) {
+Result<TakenLines> take_lines(const JournalPlace& place, const fs::path& from,
+                              const std::function<bool(TimeNs)>& has_ping) {
   const auto session = read_session(from);
   if (!session) return pass_on(session);
   std::set<decltype(identity_of(JournalLine{}))> known;
   for (const JournalLine& line : place.lines) known.insert(identity_of(line));
   std::vector<JournalLine> lines = effective_lines(session->lines);
+  if (std::ranges::none_of(lines, [&](const JournalLine& line) { return has_ping(line.ping_time); })) lines.clear();
   std::erase_if(lines, [&](const JournalLine& line) { return known.contains(identity_of(line)); });
   TakenLines taken;
   if (lines.empty()) return taken;
   std::set<std::string> operators;
   for (const JournalLine& line : lines) operators.insert(line.operator_name);
-  auto path = next_journal(place.folders.back());
+  NamedLock lock;
+  auto path = next_journal(place.folders.back(), lines.front(), lock);
   if (!path) return pass_on(path);
   const std::string text = text_of(place.journal, lines);
   if (auto written = write_file(*path, text, Beside::own_folder); !written) return pass_on(written);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,10 @@ struct TakenLines {
 
 /// Writes the lines that hold in a session, and that the journals of a place do not have, into a journal of their own there: each
 /// with its person and its time, all as one step, which its person can undo. The place has to be read anew.
-/// from    a journal, or a folder of journals
-/// errors  as read_session(); io, no_space, and nothing is taken
-[[nodiscard]] Result<TakenLines> take_lines(const JournalPlace& place, const std::filesystem::path& from);
+/// from      a journal, or a folder of journals; nothing is taken where none of its lines is of a ping of the survey
+/// has_ping  whether a ping of the survey has this datagram time
+/// errors    as read_session(); io, no_space, and nothing is taken
+[[nodiscard]] Result<TakenLines> take_lines(const JournalPlace& place, const std::filesystem::path& from,
+                                            const std::function<bool(TimeNs)>& has_ping);
 
 }  // namespace sonar

@@ -7,6 +7,7 @@
 
 #include "base/test_paths.h"
 #include "pipeline/journal/journals.h"
+#include "pipeline/journal/named_lock.h"
 
 namespace sonar {
 namespace {
@@ -33,6 +34,10 @@ class Taken : public testing::Test {
     line.ping_time = 7;
     return line;
   }
+  /// The survey has a ping at 7.
+  [[nodiscard]] Result<TakenLines> take(const fs::path& from) const {
+    return take_lines(placed(), from, [](TimeNs time) { return time == 7; });
+  }
   void write(const fs::path& path, const JournalLine& line) const {
     fs::create_directories(path.parent_path());
     ASSERT_TRUE(append_journal(path.string(), {}, line));
@@ -48,7 +53,7 @@ TEST_F(Taken, LinesThatHoldComeWithTheirPersonAndTimeAsOneStep) {
   JournalLine undo = line(4, 400, "undo");
   undo.args = {{"target", 2}};
   write(theirs_, undo);
-  const auto taken = take_lines(placed(), theirs_);
+  const auto taken = take(theirs_);
   ASSERT_TRUE(taken) << to_line(taken.error());
   EXPECT_EQ(taken->lines, 2U) << "what was undone is not taken";
   EXPECT_EQ(taken->operators, std::vector<std::string>{"ann"});
@@ -64,10 +69,10 @@ TEST_F(Taken, LinesThatHoldComeWithTheirPersonAndTimeAsOneStep) {
 
 TEST_F(Taken, WhatIsThereAlreadyIsNotTakenAgain) {
   write(theirs_, line(1, 100, "delete"));
-  ASSERT_EQ(take_lines(placed(), theirs_)->lines, 1U);
-  EXPECT_EQ(take_lines(placed(), theirs_)->lines, 0U);
+  ASSERT_EQ(take(theirs_)->lines, 1U);
+  EXPECT_EQ(take(theirs_)->lines, 0U);
   write(theirs_, line(2, 200, "delete"));  // the same act again, at another time
-  EXPECT_EQ(take_lines(placed(), theirs_)->lines, 1U);
+  EXPECT_EQ(take(theirs_)->lines, 1U);
   EXPECT_EQ(placed().lines.size(), 2U);
 }
 
@@ -75,7 +80,7 @@ TEST_F(Taken, JournalsThatAreThereStayAsTheyAre) {
   const fs::path ours = folder_ / "work" / "session.jsonl";
   write(ours, line(1, 50, "brush", "bob"));
   write(theirs_, line(1, 100, "delete"));
-  const auto taken = take_lines(placed(), theirs_.parent_path() / "chosen.jsonl");
+  const auto taken = take(theirs_);
   ASSERT_TRUE(taken);
   EXPECT_EQ(taken->into, folder_ / "work" / "session-2.jsonl");
   const auto still = read_journal(ours.string());
@@ -86,8 +91,27 @@ TEST_F(Taken, JournalsThatAreThereStayAsTheyAre) {
   EXPECT_EQ(place.path, ours) << "bob goes on with his own";
 }
 
+TEST_F(Taken, NothingOfAnotherSurvey) {
+  JournalLine other = line(1, 100, "delete");
+  other.ping_time = 8;
+  write(theirs_, other);
+  EXPECT_EQ(take(theirs_)->lines, 0U);
+  EXPECT_FALSE(fs::exists(folder_ / "work" / "session.jsonl"));
+  write(theirs_, line(2, 200, "brush"));
+  EXPECT_EQ(take(theirs_)->lines, 2U) << "a line of a ping that is not there yet stays with the others";
+}
+
+TEST_F(Taken, AJournalThatSomebodyIsAboutToBeginIsLeftAlone) {
+  write(theirs_, line(1, 100, "delete"));
+  NamedLock lock;
+  ASSERT_TRUE(lock.take(journal_lock(folder_ / "work" / "session.jsonl"), "bob", 1));
+  const auto taken = take(theirs_);
+  ASSERT_TRUE(taken) << to_line(taken.error());
+  EXPECT_EQ(taken->into, folder_ / "work" / "session-2.jsonl");
+}
+
 TEST_F(Taken, AJournalThatIsGoneIsSaid) {
-  EXPECT_EQ(take_lines(placed(), folder_ / "none.jsonl").error().code, ErrorCode::not_found);
+  EXPECT_EQ(take(folder_ / "none.jsonl").error().code, ErrorCode::not_found);
   EXPECT_TRUE(placed().lines.empty());
 }
 

@@ -218,12 +218,22 @@ std::vector<SchoolMasks> numbered(std::vector<SchoolMasks> schools, const BeamGr
 
 namespace {
 
+/// They may come from a file that anyone can write.
+bool are_of(const std::vector<MeasuredMask>& rows, std::int64_t ping_index, const std::vector<InPingRef>& schools) {
+  return std::equal(rows.begin(), rows.end(), schools.begin(), schools.end(),
+                    [&](const MeasuredMask& one, const InPingRef& of) {
+                      const bool fits = one.fault.empty() || one.fault.size() == of.in_ping->mask.voxels();
+                      return fits && one.school.row.ping_index == ping_index &&
+                             one.school.row.school_id == of.school->decided.school_id;
+                    });
+}
+
 const std::vector<MeasuredMask>* kept_rows(const MeasuredPings* before, const Engine& engine, std::int64_t ping_index,
                                            const std::vector<InPingRef>& schools) {
   if (before == nullptr) return nullptr;
   const auto found = before->pings.find(ping_index);
   if (found == before->pings.end() || found->second.first != key_of(engine, ping_index, schools)) return nullptr;
-  return &found->second.second;
+  return are_of(found->second.second, ping_index, schools) ? &found->second.second : nullptr;
 }
 
 /// What is known of other pings stays: a school that is not there now may come back, by undo or when a find is read.

@@ -137,6 +137,17 @@ ObservationFiles observation_of(const ObservationProduct& product, Files& files,
   return observation;
 }
 
+/// Of one name in two folders: parts of a survey are run by several, two surveys are not one.
+Result<void> require_same_pings(const fs::path& first, const fs::path& other) {
+  const auto a = read_product_key(first);
+  if (!a) return pass_on(a);
+  const auto b = read_product_key(other);
+  if (!b) return pass_on(b);
+  if (a->source == b->source && a->first_time == b->first_time && a->last_time == b->last_time) return {};
+  return fail(ErrorCode::mismatch, fmt::format("holds other pings than {}: open one survey at a time", first.string()),
+              {other.string()});
+}
+
 }  // namespace
 
 SurveyFiles survey_of_products(std::span<const std::shared_ptr<const ObservationProduct>> products,
@@ -152,7 +163,11 @@ Result<ResultsAlone> open_results(std::span<const fs::path> folders, const std::
   for (const fs::path& folder : folders) {
     const auto files = product_files(folder);
     if (!files) return pass_on(files);
-    for (const fs::path& file : *files) paths.emplace(file.stem().string(), file);
+    for (const fs::path& file : *files) {
+      const auto [known, is_new] = paths.emplace(file.stem().string(), file);
+      if (is_new) continue;
+      if (auto same = require_same_pings(known->second, file); !same) return pass_on(same);
+    }
   }
   if (paths.empty()) return fail(ErrorCode::not_found, why);
   std::vector<std::string> names;
@@ -164,9 +179,11 @@ Result<ResultsAlone> open_results(std::span<const fs::path> folders, const std::
     work.progress("reading the results", std::ssize(results.products), std::ssize(names));
     auto product = read_product(paths.at(name));
     if (!product) return pass_on(product);
+    if (product->pings.empty()) continue;
     product->background_db = {};
     results.products.push_back(std::make_shared<const ObservationProduct>(std::move(*product)));
   }
+  if (results.products.empty()) return fail(ErrorCode::not_found, why);
   results.survey = survey_of_products(results.products);
   results.survey.raw_gone = why;
   return results;

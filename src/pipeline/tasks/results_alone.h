@@ -23,7 +23,8 @@ struct ResultsAlone {
 
 /// folders  work folders of runs; of an observation that several have, the first's product is taken
 /// why      no ping can be read
-/// errors   not_found: they hold no product; cancelled; as read_product()
+/// errors   not_found: they hold no product with pings; mismatch: one name stands for different pings; cancelled; as
+///          read_product()
 [[nodiscard]] Result<ResultsAlone> open_results(std::span<const std::filesystem::path> folders, const std::string& why,
                                                 Work& work);
 

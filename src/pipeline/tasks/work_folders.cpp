@@ -93,7 +93,7 @@ Result<void> take_work_folder(const fs::path& out, bool stands_alone, NamedToOpe
     auto plan = read_plan(out / kPlan);
     if (!plan) return pass_on(plan);
     if (stands_alone) raw = raw_of(*plan, out);
-    if (!raw) named.expected.insert(named.expected.end(), plan->survey.begin(), plan->survey.end());
+    for (const std::string& one : plan->survey) add_once(named.expected, one);
     if (!plan->session.empty()) add_once(named.sessions, plan->session);
     recipe = std::move(plan->recipe);
   } else {

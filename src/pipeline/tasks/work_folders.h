@@ -22,7 +22,7 @@ struct NamedToOpen {
   std::optional<Recipe> recipe;                     ///< of the first run whose recipe is known
   /// Why no raw files are known that the results are of, in a line: what products hold is all there is. Empty = `raw` are.
   std::string raw_gone{};
-  std::vector<std::filesystem::path> expected{};  ///< where those lay; empty = not told
+  std::vector<std::filesystem::path> expected{};  ///< where the runs found them; empty = not told
   std::vector<std::filesystem::path> sessions{};  ///< journals, or folders of them, whose decisions the runs were given
 };
 

@@ -161,7 +161,11 @@ void add_live(AppModel& app) {
                    .keys = {"Ctrl+L"},
                    .tip = "Follow a survey that is still being recorded, and detect its schools",
                    .run = [&live] { live.set_on(!live.on()); },
-                   .enabled = [&app] { return app.workspace.document.survey() != nullptr; },
+                   .enabled =
+                       [&app] {
+                         const SurveyFiles* survey = app.workspace.document.survey();
+                         return survey != nullptr && survey->raw_gone.empty();
+                       },
                    .checked = [&live] { return live.on(); }});
   app.actions.add({.id = "file.alarm",
                    .menu = "&File",
