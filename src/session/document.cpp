@@ -216,7 +216,6 @@ Result<JournalPlace> Document::placed(const NamedToOpen& named, const std::vecto
     if (!lines || lines->lines == 0) continue;
     taken = true;
     notices.push_back(taken_text(*lines, session, options_.operator_name));
-    (void)place->read_lines();
   }
   if (taken) place = place_journal(folders, head, options_.operator_name);
   if (place) place->notices.insert(place->notices.end(), notices.begin(), notices.end());

@@ -58,7 +58,8 @@ bool Playback::step(double now_s) {
   Document& document = workspace_.document;
   if (!playing_ || !document.shown()) return false;
   const std::int64_t ping = document.ping();
-  if (!unreadable_ && (!document.staged() || document.staged()->ping_index != ping)) return true;
+  const bool will_come = !unreadable_ && document.results().empty();  // results alone have no samples
+  if (will_come && (!document.staged() || document.staged()->ping_index != ping)) return true;
   const bool last = ping + 1 >= document.shown()->pings();
   if (last && !loops_) {
     pause();

@@ -15,6 +15,7 @@
 #include "pipeline/tasks/work_folders.h"
 #include "session/exports.h"
 #include "session/live_watch.h"
+#include "session/playback.h"
 #include "session/preferences.h"
 #include "session/test_app.h"
 #include "session/test_run.h"
@@ -163,6 +164,18 @@ TEST_F(ResultsWithoutRaw, AreNotOpenedUponTheRawFilesOfAnotherSurvey) {
   document().settle();
   EXPECT_THAT(document().notices().back(), HasSubstr(other.string()));
   EXPECT_EQ(document().named(), std::vector<fs::path>{out_});
+}
+
+TEST_F(ResultsWithoutRaw, ArePlayed) {
+  open({out_});
+  document().look_at(0);
+  document().settle();
+  app_->playback->play();
+  for (int i = 0; i < 20; ++i) {  // two pings a second
+    app_->animations.tick(0.5 * i);
+    document().settle();
+  }
+  EXPECT_GT(document().ping(), 2) << "maps and timelines follow";
 }
 
 TEST_F(ResultsWithoutRaw, AreNoRecordingToFollow) {

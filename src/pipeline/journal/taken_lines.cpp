@@ -21,6 +21,14 @@ auto identity_of(const JournalLine& line) {
   return std::tuple(line.decided, line.ping_time, line.operator_name, line.command, line.args.dump());
 }
 
+/// Those that the journals of a place do not have.
+std::vector<JournalLine> lacking(const JournalPlace& place, std::vector<JournalLine> lines) {
+  std::set<decltype(identity_of(JournalLine{}))> known;
+  for (const JournalLine& line : place.lines) known.insert(identity_of(line));
+  std::erase_if(lines, [&](const JournalLine& line) { return known.contains(identity_of(line)); });
+  return lines;
+}
+
 /// The first that nobody has, held so that nobody begins it meanwhile.
 Result<fs::path> next_journal(const fs::path& folder, const JournalLine& first, NamedLock& lock) {
   for (std::int64_t number = 1; number <= kMostJournals; ++number) {
@@ -53,17 +61,23 @@ Result<TakenLines> take_lines(const JournalPlace& place, const fs::path& from,
                               const std::function<bool(TimeNs)>& has_ping) {
   const auto session = read_session(from);
   if (!session) return pass_on(session);
-  std::set<decltype(identity_of(JournalLine{}))> known;
-  for (const JournalLine& line : place.lines) known.insert(identity_of(line));
-  std::vector<JournalLine> lines = effective_lines(session->lines);
-  if (std::ranges::none_of(lines, [&](const JournalLine& line) { return has_ping(line.ping_time); })) lines.clear();
-  std::erase_if(lines, [&](const JournalLine& line) { return known.contains(identity_of(line)); });
-  TakenLines taken;
-  if (lines.empty()) return taken;
+  const std::vector<JournalLine> theirs = effective_lines(session->lines);
+  if (std::ranges::none_of(theirs, [&](const JournalLine& line) { return has_ping(line.ping_time); })) return {};
+  if (lacking(place, theirs).empty()) return {};
+  const JournalLine& first = theirs.front();
+  NamedLock taking;
+  const auto alone = taking.take(journal_lock(place.folders.back() / "taking"), first.operator_name, first.decided);
+  if (!alone) return pass_on(alone);
+  if (!alone->held_by.empty()) return {};  // another window takes them
+  JournalPlace now = place;
+  (void)now.read_ours();
+  (void)now.read_lines();  // another may have taken them meanwhile
+  std::vector<JournalLine> lines = lacking(now, theirs);
+  if (lines.empty()) return {};
   std::set<std::string> operators;
   for (const JournalLine& line : lines) operators.insert(line.operator_name);
   NamedLock lock;
-  auto path = next_journal(place.folders.back(), lines.front(), lock);
+  auto path = next_journal(place.folders.back(), first, lock);
   if (!path) return pass_on(path);
   const std::string text = text_of(place.journal, lines);
   if (auto written = write_file(*path, text, Beside::own_folder); !written) return pass_on(written);

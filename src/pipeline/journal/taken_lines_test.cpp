@@ -76,6 +76,15 @@ TEST_F(Taken, WhatIsThereAlreadyIsNotTakenAgain) {
   EXPECT_EQ(placed().lines.size(), 2U);
 }
 
+// Two windows open the same results at one moment: the second has read the journals before the first wrote.
+TEST_F(Taken, WhatAnotherWindowTookMeanwhileIsNotTakenAgain) {
+  write(theirs_, line(1, 100, "delete"));
+  const JournalPlace before = placed();
+  ASSERT_EQ(take(theirs_)->lines, 1U);
+  EXPECT_EQ(take_lines(before, theirs_, [](TimeNs) { return true; })->lines, 0U);
+  EXPECT_EQ(placed().lines.size(), 1U);
+}
+
 TEST_F(Taken, JournalsThatAreThereStayAsTheyAre) {
   const fs::path ours = folder_ / "work" / "session.jsonl";
   write(ours, line(1, 50, "brush", "bob"));
