@@ -25,10 +25,10 @@ class Taken : public testing::Test {
     EXPECT_TRUE(place);
     return place ? *place : JournalPlace{};
   }
-  static JournalLine line(std::int64_t n, TimeNs decided, const char* command, const char* who = "ann") {
+  static JournalLine line(std::int64_t n, TimeNs decided_ms, const char* command, const char* who = "ann") {
     JournalLine line;
     line.n = n;
-    line.decided = decided;
+    line.decided = decided_ms * (kSecondNs / 1000);
     line.operator_name = who;
     line.command = command;
     line.ping_time = 7;
@@ -61,7 +61,7 @@ TEST_F(Taken, LinesThatHoldComeWithTheirPersonAndTimeAsOneStep) {
   ASSERT_EQ(place.lines.size(), 2U);
   EXPECT_EQ(place.lines[0].command, "delete");
   EXPECT_EQ(place.lines[1].command, "merge");
-  EXPECT_EQ(place.lines[1].decided, 300);
+  EXPECT_EQ(place.lines[1].decided, 300 * (kSecondNs / 1000));
   EXPECT_EQ(place.lines[1].operator_name, "ann");
   EXPECT_EQ(place.lines[0].step, place.lines[0].n);
   EXPECT_EQ(place.lines[1].step, place.lines[0].n);
