@@ -37,14 +37,14 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"decode", 3, "a195b195c94c61832b89d7888875ee9f"},
     {"flags", 4, "99eb9d72fcb1c77755e090f45acd994c"},
     {"calibrate", 1, "1edf455df7cc0b4fda57ebe6875d49f6"},
-    {"background", 3, "ac62c9a7c507cccbd36187563008fb3f"},
+    {"background", 4, "4f44a41c3ce12e5f2db11de0a9dfdcf5"},
     {"median", 1, "29ae415283b450c6c185eacc33b42f65"},
     {"seabed", 7, "bd52c987c7035c50998bb977009262fe"},
     {"detect", 15, "377014ec67318b80c167d6dd11887fbb"},
     {"track", 11, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 5, "07fc13208a4339c9753bc8d5d859fd72"},
-    {"measure", 16, "45b5f5895a2d648286b5ad367d7c2f1f"},
-    {"summarise", 6, "76cf4fd3ac0c877036cdd8919c04b4da"},
+    {"measure", 17, "638e35e8709850379e0fd05fb735b585"},
+    {"summarise", 7, "3f86200874e4fd51cdb617c8a1ab1a0a"},
 }};
 
 class Digest {
