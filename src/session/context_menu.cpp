@@ -68,12 +68,14 @@ constexpr std::array<ActionGroup, 2> kJournal{kUndo, kRows};
 constexpr std::array<ActionGroup, 1> kNotes{kRows};
 
 /// Of the menu bar: the first of what belongs together, after others.
-constexpr std::array<Id, 31> kBegin{"edit.undo",
+constexpr std::array<Id, 33> kBegin{"edit.undo",
                                     "transects.open",
                                     "file.calibration",
                                     "file.run_surveys",
                                     "file.save_view",
                                     "file.quit",
+                                    "export.ply",
+                                    "export.ices",
                                     "export.movie",
                                     "volume.above",
                                     "map.all",
