@@ -27,7 +27,7 @@ class Deviations:
             off = abs(got - wanted)
             if name in TURN:
                 off = min(off, abs(TURN[name] - off))
-        limit = TOLERANCE.get(name, 1e-7 * max(1e-3, abs(wanted)) if math.isfinite(wanted) else 0.0)
+        limit = TOLERANCE.get(name, 1e-7 * max(1e-3, abs(wanted)) if math.isfinite(wanted) else 1e-9)
         count, worst, _, _ = self.worst.get((table, name), (0, -1.0, limit, ""))
         if off / limit > worst if limit else off > 0:
             self.worst[(table, name)] = (count + 1, off / limit if limit else math.inf, limit,

@@ -102,7 +102,7 @@ class Shells:
 
     def test_values(self):
         self.assertEqual(self.offered("sonarx simulate recipes --preset "), {"easy", "standard", "hard", "demo"})
-        self.assertEqual(self.offered("sonarx export recipes --to g"), {"gpkg", "geojson"})
+        self.assertEqual(self.offered("sonarx export recipes --to g"), {"gpkg", "geojson", "gltf"})
         self.assertEqual(self.offered("sonarx render volume recipes --map v"), {"viridis"})
         self.assertEqual(self.offered("sonarx render slice-"), {"slice-top", "slice-side", "slice-range", "slice-plane"})
 
