@@ -65,8 +65,10 @@ TEST_F(Export, refuses_in_one_line) {
   const auto unknown = run("shapefile");
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().code, ErrorCode::usage);
-  EXPECT_THAT(to_line(unknown.error()),
-              HasSubstr("csv, netcdf-mask, gpkg, geojson, ply, gltf, vtu, vts, ices, echoview, sv, avoidance, seabed, raw-reduced"));
+  EXPECT_THAT(
+      to_line(unknown.error()),
+      HasSubstr(
+          "csv, netcdf-mask, gpkg, geojson, ply, gltf, vtu, vts, ices, echoview, sv, avoidance, seabed, raw-reduced"));
   EXPECT_EQ(run("raw-reduced").error().code, ErrorCode::usage);
   EXPECT_EQ(run("vts").error().code, ErrorCode::usage);
   EXPECT_THAT(to_line(run("ices").error()), HasSubstr("sonarx integrate"));
