@@ -82,7 +82,7 @@ void add_current(FrameDescription& frame, const ObservationMapBase& base, const 
 
 Result<ObservationMapBase> observation_map_base(const ObservationProduct& product, PixelSize size, const Theme& theme,
                                                 const MapZoom& zoom, bool key, bool refused) {
-  if (size.width < 24.0 * theme.text_px || size.height < 16.0 * theme.text_px) {
+  if (size.width < 24.0 * theme.text_px || size.height < 15.0 * theme.text_px) {
     return fail(ErrorCode::bad_parameter,
                 fmt::format("a picture of {} x {} pixels is too small for a map", size.width, size.height));
   }

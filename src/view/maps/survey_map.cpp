@@ -210,7 +210,7 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
   const auto extent = survey_extent(observations, outlines, style.margin);
   if (!extent) return fail(ErrorCode::not_found, "no ping of the survey has a position: there is nothing to map");
   if (size.width < (style.legend ? 40.0 : 23.0) * theme.text_px ||
-      size.height < (style.legend ? 22.0 : 16.0) * theme.text_px) {
+      size.height < (style.legend ? 22.0 : 15.0) * theme.text_px) {
     return fail(ErrorCode::bad_parameter,
                 fmt::format("a picture of {} x {} pixels is too small for a survey map", size.width, size.height));
   }

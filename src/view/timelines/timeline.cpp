@@ -242,8 +242,8 @@ Result<LaidOut> laid_out(std::span<const TimelineObservation> observations, cons
                          const Theme& theme) {
   if (auto ok = validate(style); !ok) return pass_on(ok);
   const double em = theme.text_px;
-  const double least_em = theme.bars ? 30.0 : 21.0;  // without room for a colour bar
-  if (size.width < least_em * em || size.height < (style.brief ? 10.0 : 14.0) * em) {
+  const double least_em = theme.bars && !style.brief ? 30.0 : 21.0;  // a brief one of that width has no colour bar
+  if (size.width < least_em * em || size.height < (style.brief ? 10.0 : 13.0) * em) {
     return fail(ErrorCode::bad_parameter,
                 fmt::format("a picture of {} x {} pixels is too small for a timeline", size.width, size.height));
   }
