@@ -44,7 +44,7 @@ inline void journal(std::string_view text) {
     const JournalLine said = line_of(*act);
     const auto same = act_of(said);
     SONAR_CHECK(same.has_value() && line_of(*same).command == said.command &&
-                line_of(*same).args.dump() == said.args.dump());
+                line_of(*same).args->dump() == said.args->dump());
     SONAR_CHECK(!sentence_of(act->command).words.empty());
     if (const auto* propagate = std::get_if<PropagateCommand>(&act->command)) {
       SONAR_CHECK(!propagate->seeds.empty() || propagate->school.has_value());

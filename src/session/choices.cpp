@@ -28,7 +28,7 @@ const JournalLine* line_done(const ChoicesShown& shown) {
 const JournalLine* line_undone(const ChoicesShown& shown) {
   const JournalLine* undo = line_done(shown);
   if (undo == nullptr || undo->command != "undo") return nullptr;
-  const std::int64_t target = undo->args.value("target", std::int64_t{0});
+  const std::int64_t target = undo->args->value("target", std::int64_t{0});
   const auto found =
       std::find_if(shown.lines->begin(), shown.lines->end(), [&](const JournalLine& line) { return line.n == target; });
   return found == shown.lines->end() ? nullptr : &*found;

@@ -2,6 +2,7 @@
 // Undo, redo, and acts that are done instead of the last one.
 #include <algorithm>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <ranges>
 #include <utility>
 
@@ -19,7 +20,7 @@ Result<void> Choices::write_replaced(std::vector<Turn>& replaced, JournalStep& s
     line.decided = now();
     line.operator_name = options_.operator_name;
     line.command = "undo";
-    line.args = {{"target", turn.n}};
+    *line.args = {{"target", turn.n}};
     line.step = step.first == 0 ? line.n : step.first;
     if (auto written = write(line); !written) {
       step.first == 0 ? put_back(turns) : rebuild();
@@ -104,7 +105,7 @@ Result<std::int64_t> Choices::turn(bool undo) {
   for (const auto& [undone, target] : turns) {
     line.n = history_.next();
     line.command = undone ? "undo" : "redo";
-    line.args = {{"target", target}};
+    *line.args = {{"target", target}};
     const auto written = write(line);
     if (written) continue;
     if (target != turns.front().second) rebuild();  // some of the step's lines were turned

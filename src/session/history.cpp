@@ -2,14 +2,15 @@
 #include "session/history.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <ranges>
 
 namespace sonar {
 namespace {
 
 std::optional<std::int64_t> target_of(const JournalLine& line) {
-  const auto found = line.args.find("target");
-  if (found == line.args.end() || !found->is_number_integer()) return std::nullopt;
+  const auto found = line.args->find("target");
+  if (found == line.args->end() || !found->is_number_integer()) return std::nullopt;
   return found->get<std::int64_t>();
 }
 

@@ -130,7 +130,7 @@ void OpenSurvey::tell_unseen(const ChoicesShown& before) {
                          numbers.size() == 1 ? "" : "s", fmt::join(numbers, ", "), name));
       }
     } else if (!shown_ || shown_->index() != index) {
-      const std::int64_t target = line->args.value("target", std::int64_t{0});
+      const std::int64_t target = line->args->value("target", std::int64_t{0});
       const auto what = choices_.names.find(target);
       tell(fmt::format("{} in {}: {}", line->command == "undo" ? "taken back" : "done again", name,
                        what == choices_.names.end() ? fmt::format("line {}", target) : what->second));

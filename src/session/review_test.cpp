@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
 
@@ -205,7 +206,7 @@ TEST_F(ReviewAtWork, ARuleDecidesAllInOneStepThatCanBeUndone) {
   document().settle();
   EXPECT_EQ(document().choices().lines->size(), lines + 1);
   EXPECT_EQ(last_line().command, "bulk_decide");
-  EXPECT_EQ(last_line().args["rule"], "pings >= 5 -> accept");
+  EXPECT_EQ((*last_line().args)["rule"], "pings >= 5 -> accept");
   EXPECT_EQ(with_status("accepted"), 1);
   EXPECT_EQ(with_status("unreviewed"), 1);
   press("edit.undo");

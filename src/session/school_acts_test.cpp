@@ -73,9 +73,9 @@ TEST_F(SchoolActs, PropagationFollowsTheControlPanel) {
 
 TEST_F(SchoolActs, ReshapingIsOfThePingOrOfTheWholeTrack) {
   act("school.fill_holes", "fill_holes", "Undo fill holes of school 1");
-  EXPECT_FALSE(last_line().args.value("all_pings", true));
+  EXPECT_FALSE(last_line().args->value("all_pings", true));
   act("school.smooth_all", "smooth", "Undo smooth school 1");
-  EXPECT_TRUE(last_line().args.value("all_pings", false));
+  EXPECT_TRUE(last_line().args->value("all_pings", false));
   act("school.smooth", "smooth", "Undo smooth school 1");
   act("school.largest_part", "largest_part", "Undo keep the largest part of school 1");
   act("school.largest_part_all", "largest_part", "Undo keep the largest part of school 1");

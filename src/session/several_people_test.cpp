@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "session/test_survey.h"
@@ -177,7 +178,7 @@ TEST_F(SeveralPeople, UndoAndRedoInASecondJournalComeBack) {
   }
   const auto lines = read_journal((work_ / "session-2.jsonl").string())->lines;
   ASSERT_EQ(lines.size(), 3U);
-  EXPECT_EQ(lines[2].args.at("target"), 2);
+  EXPECT_EQ(lines[2].args->at("target"), 2);
   const auto bent = window("bent");
   bent->go_to(1);
   EXPECT_EQ(bent->events(), 1U);

@@ -69,7 +69,7 @@ TEST_F(Desktop, HoverShowsWhatAClickThenSelects) {
   click("top_slice", place);
   EXPECT_EQ(pointed_at, *app_->workspace.cursor());
   ASSERT_EQ(document().state().schools.size(), 1U);
-  EXPECT_EQ(document().choices().lines->back().args["seeds"][0]["sample"], app_->workspace.cursor()->sample);
+  EXPECT_EQ((*document().choices().lines->back().args)["seeds"][0]["sample"], app_->workspace.cursor()->sample);
   const PingMask& clicked = document().state().schools[0]->masks.pings[0].mask;
   EXPECT_EQ(clicked.voxels(), hovered.mask->voxels());
   EXPECT_EQ(clicked, *hovered.mask);

@@ -8,6 +8,7 @@
 #include <QToolButton>
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "gui/about.h"
 #include "gui/action_menus.h"
@@ -68,7 +69,7 @@ TEST_F(VolumeInTheWindow, HoverPreviewsAndAClickSelectsWhatIsSeen) {
   ASSERT_TRUE(workspace().preview().mask) << workspace().preview().text;
   click("volume", at);
   ASSERT_EQ(document().state().schools.size(), 1U);
-  const auto& seeds = document().choices().lines->back().args["seeds"];
+  const auto& seeds = (*document().choices().lines->back().args)["seeds"];
   EXPECT_EQ(seeds[0]["sample"], voxel.sample);
   double_click("volume", at);
   EXPECT_GT(masks().size(), 1U);

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <utility>
@@ -158,7 +159,7 @@ TEST_F(Observe, ChoicesStayOnTheirPingsWhateverHappensToTheFiles) {
   line.n = 1;
   line.command = "propagate";
   line.ping_time = later.ping_time(later.observations.front(), static_cast<std::size_t>(mask.ping_index));
-  line.args = to_json(command);
+  *line.args = to_json(command);
   const std::vector<JournalLine> journal{line};
   const auto expected = manual_masks(later, journal);
   ASSERT_FALSE(expected.empty());
@@ -184,7 +185,7 @@ TEST_F(Observe, DetectionNeverTakesAHumansVoxel) {
 
 TEST_F(Observe, ChoiceThatDoesNotHoldIsListedAndNeverMoved) {
   JournalLine line = click(GrowMode::tracked);
-  line.args["seeds"][0]["sample"] = 0;  // the transducer's ringing
+  (*line.args)["seeds"][0]["sample"] = 0;  // the transducer's ringing
   JournalLine unknown = click(GrowMode::tracked);
   unknown.command = "paint";
   Recipe recipe;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -63,7 +64,7 @@ class ObservedSurvey : public testing::Test {
     line.operator_name = "someone";
     line.command = "propagate";
     line.ping_time = survey_->ping_time(observation(), static_cast<std::size_t>(found.ping_index));
-    line.args = to_json(command);
+    *line.args = to_json(command);
     return line;
   }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -65,7 +66,7 @@ class OneSchoolObserved : public test::ObservedSurvey {
     JournalLine line;
     line.command = command_name(command);
     line.ping_time = survey_->ping_time(observation(), 0);
-    line.args = to_json(command);
+    *line.args = to_json(command);
     return line;
   }
   /// The school that is clicked, by a ping that no click of few pings reaches, and another one.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
@@ -109,7 +110,7 @@ class RecipeLimits : public testing::Test {
       line.n = 1;
       line.command = "propagate";
       line.ping_time = observation.navigation[2].time;
-      line.args = to_json(command);
+      *line.args = to_json(command);
       Diagnostics notes;
       const std::vector<JournalLine> lines{line};
       for (const SchoolMasks& school : replay(engine, lines, {0, last}, notes)) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -143,7 +144,7 @@ JournalLine click(const Engine& engine, GrowMode mode) {
   line.n = 1;
   line.command = "propagate";
   line.ping_time = test::kStart + 4 * kSecondNs;  // ping 2
-  line.args = to_json(command);
+  *line.args = to_json(command);
   return line;
 }
 

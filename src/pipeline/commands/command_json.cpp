@@ -270,11 +270,12 @@ Result<Command> command_from_json(std::string_view name, const nlohmann::json& a
 }
 
 JournalLine line_of(const JournalAct& act) {
-  return {act.n, act.decided, act.operator_name, command_name(act.command), act.ping_time, to_json(act.command)};
+  return {
+      act.n, act.decided, act.operator_name, command_name(act.command), act.ping_time, JsonValue(to_json(act.command))};
 }
 
 Result<JournalAct> act_of(const JournalLine& line) {
-  auto command = command_from_json(line.command, line.args, line.ping_time);
+  auto command = command_from_json(line.command, *line.args, line.ping_time);
   if (!command) return pass_on(command);
   return JournalAct{line.n, line.decided, line.operator_name, line.ping_time, std::move(*command)};
 }

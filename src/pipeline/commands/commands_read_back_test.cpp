@@ -54,7 +54,7 @@ TEST(CommandsReadBack, ACalibrationIsReadBackChangesNoSchoolAndIsUndone) {
   JournalLine act = line(1, 3, calibrate);
   const auto read = act_of(act);
   ASSERT_TRUE(read) << read.error().text;
-  EXPECT_EQ(line_of(*read).args.dump(), act.args.dump());  // as text: an unknown value equals nothing
+  EXPECT_EQ(line_of(*read).args->dump(), act.args->dump());  // as text: an unknown value equals nothing
   // Wherever it was said, it is about the whole survey.
   act.ping_time += 1000 * kSecondNs;
   const JournalState done = fold({&act, 1}, SmallSea::detected(), sea.context());
@@ -65,21 +65,21 @@ TEST(CommandsReadBack, ACalibrationIsReadBackChangesNoSchoolAndIsUndone) {
   ASSERT_EQ(recipe.calibration.beams.size(), 1U);
   EXPECT_TRUE(std::isnan(recipe.calibration.beams[0].sa_correction_db));
   EXPECT_EQ(recipe_text(measuring_recipe({}, SmallSea::detected())), recipe_text({}));
-  const JournalLine undo{2, 0, "", "undo", 0, {{"target", 1}}};
+  const JournalLine undo{2, 0, "", "undo", 0, JsonValue(nlohmann::json{{"target", 1}})};
   EXPECT_FALSE(fold(effective_lines({act, undo}), SmallSea::detected(), sea.context()).calibration);
 }
 
 TEST(CommandsReadBack, ALineThatAsksForDetectionSaysHowManyWereFound) {
   const JournalLine written = line(1, 0, DetectCommand{7});
-  EXPECT_EQ(written.args["schools"], 7);
+  EXPECT_EQ((*written.args)["schools"], 7);
   const auto read = act_of(written);
   ASSERT_TRUE(read);
   EXPECT_EQ(std::get<DetectCommand>(read->command).schools, 7);
   JournalLine older = written;
-  older.args = nlohmann::json::object();
+  *older.args = nlohmann::json::object();
   ASSERT_TRUE(act_of(older));
   for (const auto& wrong : {nlohmann::json(-1), nlohmann::json("two"), nlohmann::json(1e15)}) {
-    older.args = {{"schools", wrong}};
+    *older.args = {{"schools", wrong}};
     EXPECT_FALSE(act_of(older)) << wrong.dump();
   }
 }

@@ -29,8 +29,8 @@ TEST(Commands, EveryCommandChangesTheStateAndUndoRestoresIt) {
   const std::string before = told(SmallSea::detected());
   for (const auto& [ping, command] : every_command()) {
     const JournalLine act = line(1, ping, command);
-    JournalLine undo{2, 0, "", "undo", 0, {{"target", 1}}};
-    JournalLine redo{3, 0, "", "redo", 0, {{"target", 1}}};
+    JournalLine undo{2, 0, "", "undo", 0, JsonValue(nlohmann::json{{"target", 1}})};
+    JournalLine redo{3, 0, "", "redo", 0, JsonValue(nlohmann::json{{"target", 1}})};
     const auto fold_all = [&](const std::vector<JournalLine>& lines) {
       return fold(effective_lines(lines), SmallSea::detected(), sea.context());
     };
@@ -220,7 +220,7 @@ TEST(Commands, ANameIsKeptWithTheSchoolAndInItsRow) {
   EXPECT_EQ(school_title(*state.schools[1]), "school 2");
   const JournalLine written = line(1, 3, DecideCommand{{renaming(key_a(), "")}, ""});
   EXPECT_EQ(written.command, "rename");
-  EXPECT_EQ(written.args["name"], "") << "an empty name takes the name away";
+  EXPECT_EQ((*written.args)["name"], "") << "an empty name takes the name away";
   EXPECT_EQ(after({{3, DecideCommand{{renaming(key_a(), "north wall")}, ""}},
                    {3, DecideCommand{{renaming(key_a(), "")}, ""}}})
                 .schools[0]

@@ -66,7 +66,7 @@ TEST(Replay, KeepsTheNeighboursOfBothModes) {
     }
     if (mode == GrowMode::tracked) continue;
     JournalLine old = line(1, 4, command);
-    old.args["propagate_paper"].erase("connectivity");
+    (*old.args)["propagate_paper"].erase("connectivity");
     EXPECT_EQ(voxels(old, 4), 73U);
     EXPECT_EQ(voxels(old, 5), 72U);
   }
@@ -132,13 +132,13 @@ TEST(StoppedPropagation, PropagationStoppedOnTheWayBackNamesBothReaches) {
   context.on_step = [](std::int64_t ping_index, const PingMask&) { return ping_index != 2; };
   const auto stopped = apply_watched({1, 0, "", ping_time(4), propagate_from(seed_a())}, SmallSea::detected(), context);
   ASSERT_TRUE(stopped);
-  EXPECT_EQ(line_of(stopped->act).args.at("reach_backward"), 2);
-  EXPECT_EQ(line_of(stopped->act).args.at("reach_forward"), 0);
+  EXPECT_EQ(line_of(stopped->act).args->at("reach_backward"), 2);
+  EXPECT_EQ(line_of(stopped->act).args->at("reach_forward"), 0);
   context.on_step = [](std::int64_t ping_index, const PingMask&) { return ping_index != 7; };
   const auto later = apply_watched({1, 0, "", ping_time(4), propagate_from(seed_a())}, SmallSea::detected(), context);
   ASSERT_TRUE(later);
-  EXPECT_EQ(line_of(later->act).args.at("reach_backward"), -1);  // it came to its own end
-  EXPECT_EQ(line_of(later->act).args.at("reach_forward"), 3);
+  EXPECT_EQ(line_of(later->act).args->at("reach_backward"), -1);  // it came to its own end
+  EXPECT_EQ(line_of(later->act).args->at("reach_forward"), 3);
 }
 
 TEST(StoppedPropagation, FoldIsWatchedByNobody) {

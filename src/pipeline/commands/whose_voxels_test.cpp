@@ -90,7 +90,8 @@ TEST(WhoseVoxels, WhatAHumanAcceptedKeepsItsVoxels) {
     std::vector<JournalLine> lines;
     for (const Command& command : acts) lines.push_back(line(static_cast<std::int64_t>(lines.size()) + 1, 4, command));
     for (auto n = static_cast<std::int64_t>(acts.size()); n > 0; --n) {
-      lines.push_back({static_cast<std::int64_t>(lines.size()) + 1, 0, "", "undo", 0, {{"target", n}}});
+      lines.push_back(
+          {static_cast<std::int64_t>(lines.size()) + 1, 0, "", "undo", 0, JsonValue(nlohmann::json{{"target", n}})});
     }
     EXPECT_EQ(told(fold(effective_lines(lines), SmallSea::detected(), sea.context())), told(SmallSea::detected()));
   }

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "base/hash.h"
@@ -58,7 +59,7 @@ std::optional<JournalLine> line_from_json(const nlohmann::json& json) {
   line.n = *n;
   line.command = json["cmd"].get<std::string>();
   line.ping_time = *ping_time;
-  line.args = json["args"];
+  *line.args = json["args"];
   if (json.contains("step")) line.step = whole_number(json["step"]).value_or(0);
   if (has("operator", &nlohmann::json::is_string)) line.operator_name = json["operator"].get<std::string>();
   if (has("t", &nlohmann::json::is_string)) line.decided = time_from_iso(json["t"].get<std::string>()).value_or(0);
@@ -92,7 +93,7 @@ std::string journal_text(const JournalLine& line) {
                          {"operator", line.operator_name},
                          {"cmd", line.command},
                          {"ping_time", line.ping_time},
-                         {"args", line.args}};
+                         {"args", *line.args}};
   if (line.step != 0) json["step"] = line.step;
   return sealed(std::move(json));
 }
@@ -193,7 +194,7 @@ std::vector<JournalLine> effective_lines(const std::vector<JournalLine>& lines) 
   std::map<std::int64_t, bool> undone;
   for (const JournalLine& line : lines) {
     if (line.command != "undo" && line.command != "redo") continue;
-    const auto target = line.args.contains("target") ? whole_number(line.args["target"]) : std::nullopt;
+    const auto target = line.args->contains("target") ? whole_number((*line.args)["target"]) : std::nullopt;
     if (target) undone[*target] = line.command == "undo";
   }
   std::vector<JournalLine> kept;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "base/result.h"
 #include "base/time.h"
 #include "model/product.h"
+#include "pipeline/journal/json_value.h"
 
 namespace sonar {
 
@@ -23,7 +23,7 @@ struct JournalLine {
   std::string operator_name;
   std::string command;   ///< "propagate", "undo", "redo", ...
   TimeNs ping_time = 0;  ///< of the ping it was made on
-  nlohmann::json args = nlohmann::json::object();
+  JsonValue args;        ///< an object
   /// n of the first line of the step that this one belongs to: such lines are undone and redone together. 0 = alone.
   std::int64_t step = 0;
 };

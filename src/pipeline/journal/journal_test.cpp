@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "base/test_full_disk.h"
@@ -31,7 +32,7 @@ class JournalFile : public testing::Test {
     line.n = n;
     line.command = command;
     line.ping_time = 1'000'000'000 * n;
-    line.args = std::move(args);
+    *line.args = std::move(args);
     ASSERT_TRUE(append_journal(path_, head_, line));
   }
   std::string text() {
@@ -53,7 +54,7 @@ TEST_F(JournalFile, ReadsBackWhatWasAppended) {
   EXPECT_EQ(journal->recipe_hash, "cd");
   EXPECT_THAT(journal->recipe, testing::HasSubstr("recipe_version"));
   ASSERT_EQ(journal->lines.size(), 2U);
-  EXPECT_EQ(journal->lines[0].args["seeds"][0]["sample"], 400);
+  EXPECT_EQ((*journal->lines[0].args)["seeds"][0]["sample"], 400);
   EXPECT_EQ(journal->lines[1].ping_time, 2'000'000'000);
   EXPECT_TRUE(journal->diagnostics.empty());
 }
@@ -95,7 +96,7 @@ TEST_F(JournalFile, AFullDiskRefusesTheLineAndLeavesTheFileAsItWas) {
   JournalLine line;
   line.n = 2;
   line.command = "comment";
-  line.args = {{"comment", std::string(300, 'x')}};
+  *line.args = {{"comment", std::string(300, 'x')}};
   for (const bool fresh : {true, false}) {
     std::remove(path_.c_str());
     if (!fresh) append(1, "propagate");
@@ -185,7 +186,7 @@ TEST(Journal, UndoAndRedoNameTheirTarget) {
     JournalLine made;
     made.n = n;
     made.command = command;
-    if (target > 0) made.args = {{"target", target}};
+    if (target > 0) *made.args = {{"target", target}};
     return made;
   };
   const std::vector<JournalLine> lines = {line(1, "propagate", 0), line(2, "propagate", 0), line(3, "undo", 1),

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -29,7 +30,7 @@ JournalLine moved(JournalLine line, std::int64_t by) {
   if (by == 0) return line;
   line.n = sum(line.n, by);
   if (line.step != 0) line.step = sum(line.step, by);
-  if (const auto target = line.args.find("target"); target != line.args.end() && target->is_number_integer()) {
+  if (const auto target = line.args->find("target"); target != line.args->end() && target->is_number_integer()) {
     *target = sum(target->get<std::int64_t>(), by);
   }
   return line;

@@ -8,6 +8,7 @@
 #include <array>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "io/simrad/test_bytes.h"
@@ -22,7 +23,7 @@ JournalLine line(std::int64_t n, TimeNs decided, const std::string& command = "e
   made.n = n;
   made.decided = decided;
   made.command = command;
-  if (target != 0) made.args = {{"target", target}};
+  if (target != 0) *made.args = {{"target", target}};
   return made;
 }
 

@@ -2,6 +2,7 @@
 #include "pipeline/journal/taken_lines.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
 #include <tuple>
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 /// What tells a choice from others, whatever its number.
 auto identity_of(const JournalLine& line) {
-  return std::tuple(line.decided, line.ping_time, line.operator_name, line.command, line.args.dump());
+  return std::tuple(line.decided, line.ping_time, line.operator_name, line.command, line.args->dump());
 }
 
 /// Those that the journals of a place do not have.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <nlohmann/json.hpp>
 
 #include "base/test_paths.h"
 #include "pipeline/journal/journals.h"
@@ -51,7 +52,7 @@ TEST_F(Taken, LinesThatHoldComeWithTheirPersonAndTimeAsOneStep) {
   write(theirs_, line(2, 200, "brush"));
   write(theirs_, line(3, 300, "merge"));
   JournalLine undo = line(4, 400, "undo");
-  undo.args = {{"target", 2}};
+  *undo.args = {{"target", 2}};
   write(theirs_, undo);
   const auto taken = take(theirs_);
   ASSERT_TRUE(taken) << to_line(taken.error());

@@ -47,8 +47,8 @@ std::optional<JournalList::Place> JournalList::place_of(const JournalLine& line)
 
 std::string JournalList::what(const JournalLine& line) const {
   if (turns_back(line)) {
-    const auto target = line.args.find("target");
-    const bool known = target != line.args.end() && target->is_number_integer();
+    const auto target = line.args->find("target");
+    const bool known = target != line.args->end() && target->is_number_integer();
     return known ? fmt::format("{} line {}", line.command, line_title(target->get<std::int64_t>())) : line.command;
   }
   const auto& names = workspace().document.choices().names;

@@ -124,7 +124,7 @@ void SeedTool::follow_undo() {
   const ChoicesShown& now = workspace_.document.choices();
   const JournalLine* turn = line_done(now);
   if (turn == nullptr || (turn->command != "undo" && turn->command != "redo")) return;
-  const std::int64_t target = turn->args.value("target", std::int64_t{0});
+  const std::int64_t target = turn->args->value("target", std::int64_t{0});
   const auto line = std::ranges::find(*now.lines, target, &JournalLine::n);
   if (line == now.lines->end()) return;
   const auto drag = std::ranges::find(dragged_, line->step == 0 ? line->n : line->step, &Dragged::step);
