@@ -22,7 +22,7 @@ no file holds, which must be faults. Which samples beyond the masks were faulty 
   bodies whose figures are known. Nor are diner_nb_across, diner_nb_height, bottom_distance_m, mass_latitude and
   mass_longitude in school_pings.csv. incidence_deg is of the extents that are not recounted.
 - the columns of movement that came with them (speed_smoothed_mps to wake_distance_m, and in schools.csv course_se_deg to
-  current_se_mps) and depth_error_m of a ping: not recounted. Their tests are ways and currents whose figures are known.
+  current_se_mps), depth_error_m and the columns of extinction of a ping: not recounted. Their tests are ways and currents whose figures are known.
 - where sound is bent along rays (survey.bend_rays): not recounted is what follows the rays (BENT).
 - columns that came after the product was written: left out.
 - threshold_db: not recounted. It comes from the level at which the detection split the filtered volume; masks and
@@ -46,6 +46,8 @@ from recount_product import Observation
 from recount_raw import Survey
 
 DB_PER_COUNT = 10 * math.log10(2) / 256
+EXTINCTION = ("extinction_loss_db", "extinction_share", "extinction_share_low", "extinction_share_high",
+              "extinction_corrected")
 BENT = {"latitude", "longitude", "depth_m", "length_m", "width_m", "height_m", "axis_deg", "depth_min_m", "depth_max_m",
         "surface_distance_m", "horizontal_range_m", "mass_depth_m"}
 
@@ -330,7 +332,8 @@ def summary(o, rows):
            "depth_m": mean("depth_m"), "sv_mean_db": db("sv_mean_db"), "backscatter_m2": math.nan,
            "volume_corrected_m3": math.nan, "sv_corrected_db": math.nan, "backscatter_psi_error_db": math.nan,
            "backscatter_calibration_se_db": math.nan, "backscatter_total_m2": mean("backscatter_total_m2"),
-           "depth_error_m": mean("depth_error_m")}
+           "depth_error_m": mean("depth_error_m"),
+           **{name: mean(name) for name in EXTINCTION}}
     errors = values("backscatter_total_se_m2")
     out["backscatter_total_se_m2"] = math.sqrt((errors**2).sum()) / len(errors) if len(errors) else math.nan
     for name in ("volume_m3", "length_m", "width_m", "height_m", *MEDIANS):

@@ -26,7 +26,8 @@ TEST(Csv, header_is_the_published_one) {
             "sv_variation,sv_skewness,sv_kurtosis,core_edge_db,nasc_m2_nmi2,surface_distance_m,"
             "bottom_distance_m,horizontal_range_m,incidence_deg,diner_nb_across,diner_nb_height,"
             "course_se_deg,vertical_speed_se_mps,tortuosity,tortuosity_se,speed_water_mps,speed_water_se_mps,"
-            "course_water_deg,course_water_se_deg,current_east_mps,current_north_mps,current_se_mps,depth_error_m\n");
+            "course_water_deg,course_water_se_deg,current_east_mps,current_north_mps,current_se_mps,depth_error_m,"
+            "extinction_loss_db,extinction_share,extinction_share_low,extinction_share_high,extinction_corrected\n");
   EXPECT_EQ(csv_text(std::vector<SchoolPingRow>{}),
             "observation,school_id,ping_index,time_utc,latitude,longitude,depth_m,range_m,bearing_deg,n_voxels,n_beams,"
             "n_fans,volume_m3,length_m,width_m,height_m,axis_deg,depth_min_m,depth_max_m,sv_mean_db,sv_p95_db,"
@@ -42,7 +43,8 @@ TEST(Csv, header_is_the_published_one) {
             "speed_smoothed_mps,speed_smoothed_se_mps,course_smoothed_deg,vertical_speed_smoothed_mps,"
             "speed_water_smoothed_mps,course_water_smoothed_deg,relative_bearing_deg,ship_speed_mps,"
             "course_away_deg,speed_away_mps,speed_away_se_mps,speed_away_water_mps,time_to_cpa_s,cpa_m,"
-            "wake_distance_m,depth_error_m\n");
+            "wake_distance_m,depth_error_m,"
+            "extinction_loss_db,extinction_share,extinction_share_low,extinction_share_high,extinction_corrected\n");
 }
 
 TEST(Csv, rows_read_back) {
@@ -81,7 +83,8 @@ TEST(Csv, a_table_from_before_a_column_came_is_whole) {
       "sv_variation,sv_skewness,sv_kurtosis,core_edge_db,nasc_m2_nmi2,surface_distance_m,"
       "bottom_distance_m,horizontal_range_m,incidence_deg,diner_nb_across,diner_nb_height,"
       "course_se_deg,vertical_speed_se_mps,tortuosity,tortuosity_se,speed_water_mps,speed_water_se_mps,"
-      "course_water_deg,course_water_se_deg,current_east_mps,current_north_mps,current_se_mps,depth_error_m\n";
+      "course_water_deg,course_water_se_deg,current_east_mps,current_north_mps,current_se_mps,depth_error_m,"
+      "extinction_loss_db,extinction_share,extinction_share_low,extinction_share_high,extinction_corrected\n";
   text.replace(text.find(later), later.size() - 1, "");
   text.replace(text.find("last,,,,,,,0,"), text.size() - text.find("last,,,,,,,0,") - 1, "last");
   const auto table = parse_csv(text, "old.csv");

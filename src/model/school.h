@@ -97,6 +97,12 @@ struct SchoolPingRow : SchoolDescriptors {
   double wake_distance_m = kUnknown;
   // Refraction: known with a sound speed profile only.
   double depth_error_m = kUnknown;
+  // Extinction (school/measure/extinction.h).
+  double extinction_loss_db = kUnknown;
+  double extinction_share = kUnknown;
+  double extinction_share_low = kUnknown;
+  double extinction_share_high = kUnknown;
+  double extinction_corrected = kUnknown;
 };
 
 /// SchoolRow::ended_at_reach: neither end, its first ping, its last, or both.
@@ -157,6 +163,12 @@ struct SchoolRow : SchoolDescriptors {
   double current_se_mps = kUnknown;
   // Refraction: known with a sound speed profile only.
   double depth_error_m = kUnknown;
+  // Extinction (school/measure/extinction.h).
+  double extinction_loss_db = kUnknown;
+  double extinction_share = kUnknown;
+  double extinction_share_low = kUnknown;
+  double extinction_share_high = kUnknown;
+  double extinction_corrected = kUnknown;
 };
 
 /// Time column: ISO 8601 in text, empty for 0.
@@ -237,6 +249,12 @@ void columns(Visitor& v, SchoolPingRow& r) {
   v("wake_distance_m", "m", r.wake_distance_m);
   // Refraction.
   v("depth_error_m", "m", r.depth_error_m);
+  // Extinction.
+  v("extinction_loss_db", "dB", r.extinction_loss_db);
+  v("extinction_share", "1", r.extinction_share);
+  v("extinction_share_low", "1", r.extinction_share_low);
+  v("extinction_share_high", "1", r.extinction_share_high);
+  v("extinction_corrected", "1", r.extinction_corrected);
 }
 
 template <class Visitor>
@@ -292,6 +310,12 @@ void columns(Visitor& v, SchoolRow& r) {
   v("current_se_mps", "m s-1", r.current_se_mps);
   // Refraction.
   v("depth_error_m", "m", r.depth_error_m);
+  // Extinction.
+  v("extinction_loss_db", "dB", r.extinction_loss_db);
+  v("extinction_share", "1", r.extinction_share);
+  v("extinction_share_low", "1", r.extinction_share_low);
+  v("extinction_share_high", "1", r.extinction_share_high);
+  v("extinction_corrected", "1", r.extinction_corrected);
 }
 
 /// Columns of movement, of both tables.
@@ -332,6 +356,11 @@ inline constexpr std::array<std::string_view, 26> kMovementColumns{"speed_smooth
                                          "ended_at_reach",
                                          "survey_school",
                                          "depth_error_m",
+                                         "extinction_loss_db",
+                                         "extinction_share",
+                                         "extinction_share_low",
+                                         "extinction_share_high",
+                                         "extinction_corrected",
                                          "box_bearing_deg",
                                          "box_tilt_deg",
                                          "mass_latitude",

@@ -40,8 +40,9 @@ TEST(SchoolColumns, OfPings) {
             "speed_smoothed_mps,speed_smoothed_se_mps,course_smoothed_deg,vertical_speed_smoothed_mps,"
             "speed_water_smoothed_mps,course_water_smoothed_deg,relative_bearing_deg,ship_speed_mps,"
             "course_away_deg,speed_away_mps,speed_away_se_mps,speed_away_water_mps,time_to_cpa_s,cpa_m,"
-            "wake_distance_m,depth_error_m");
-  EXPECT_EQ(names.seen.size(), 87U);
+            "wake_distance_m,depth_error_m,"
+            "extinction_loss_db,extinction_share,extinction_share_low,extinction_share_high,extinction_corrected");
+  EXPECT_EQ(names.seen.size(), 92U);
 }
 
 TEST(SchoolColumns, OfTracks) {
@@ -59,8 +60,9 @@ TEST(SchoolColumns, OfTracks) {
             "sv_variation,sv_skewness,sv_kurtosis,core_edge_db,nasc_m2_nmi2,surface_distance_m,"
             "bottom_distance_m,horizontal_range_m,incidence_deg,diner_nb_across,diner_nb_height,"
             "course_se_deg,vertical_speed_se_mps,tortuosity,tortuosity_se,speed_water_mps,speed_water_se_mps,"
-            "course_water_deg,course_water_se_deg,current_east_mps,current_north_mps,current_se_mps,depth_error_m");
-  EXPECT_EQ(names.seen.size(), 73U);
+            "course_water_deg,course_water_se_deg,current_east_mps,current_north_mps,current_se_mps,depth_error_m,"
+            "extinction_loss_db,extinction_share,extinction_share_low,extinction_share_high,extinction_corrected");
+  EXPECT_EQ(names.seen.size(), 78U);
 }
 
 // 1 fore, 2 aft, 4 top fan, 8 bottom fan, 16 near, 32 far, 64 seabed, 128 surface, 256 flagged data.

@@ -66,6 +66,8 @@ struct DisplayParams {
   double fuzzy_above = 0.0;
   bool rejected = true;
   bool refused_echoes = true;
+  bool shadow = false;
+  double shadow_db = 1.0;
   bool grid_lines = false;
   bool north_up = false;
 };
@@ -116,6 +118,15 @@ void describe(Visitor& v, DisplayParams& p) {
           {.text = "mark the echoes above the background that were judged no schools",
            .flag = "refused",
            .suits = "slice- volume observation-map timeline echogram"});
+  v.field("shadow", p.shadow,
+          {.text = "hatch what lies in the shadow of the schools that are shown, by the recipe's extinction",
+           .suits = "slice-"});
+  v.field("shadow_db", p.shadow_db,
+          {.unit = "dB",
+           .min = 0.1,
+           .max = 20,
+           .text = "two-way loss from which a sample lies in shadow",
+           .suits = "slice-"});
   v.field("grid_lines", p.grid_lines, {.text = "lines of the axes across slices", .flag = "grid", .suits = "slice-"});
   v.field("north_up", p.north_up,
           {.text = "north points up in slices from above; off = the bow does",

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "base/sample_flags.h"
+#include "pipeline/recipe/recipe.h"
+#include "pipeline/stages/engine.h"
 #include "publish/picture_params.h"
 #include "view/slices/slice_picture.h"
 
@@ -24,5 +27,10 @@ namespace sonar {
 
 /// Below which signal-to-noise samples carry low_snr, dB; empty where weak ones look as others do.
 [[nodiscard]] std::optional<double> weak_below(const DisplayParams& display);
+
+/// SliceData::shadow_from of the masks that are drawn.
+[[nodiscard]] std::vector<int> shadow_of_schools(const StagedPing& ping, const Sector& sector,
+                                                 const std::vector<MaskLayer>& masks, const Recipe& recipe,
+                                                 const DisplayParams& display);
 
 }  // namespace sonar

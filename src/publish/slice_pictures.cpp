@@ -174,6 +174,9 @@ Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observa
   }
   data.masks = masks;
   data.refused = drawn_refused(observation, *sector, ping->ping_index, options);
+  if (options.display.shadow && ping->staged) {
+    data.shadow_from = shadow_of_schools(*ping->staged, *sector, masks, observation.recipe(), options.display);
+  }
   SliceStyle style = slice_style(options.display, colours_of(options));
   style.key = slice_key_of(*ping, options);
   auto picture = slice_picture(*sector, data, titled_ping(observation, *ping), drawn_view(*slice, *ping, options),

@@ -112,7 +112,7 @@ std::vector<PanelSection> control_panel(Workspace& workspace) {
         "take_out.impulse_noise", "take_out.seabed", "removed", "weak_below_db"},
        {},
        false},
-      {"Slices", display, {"grid_lines", "north_up"}, {}, false},
+      {"Slices", display, {"shadow", "shadow_db", "grid_lines", "north_up"}, {}, false},
       {.title = "Plane slice",
        .source = plane,
        .open = false,

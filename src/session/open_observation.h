@@ -51,6 +51,7 @@ class OpenObservation {
   [[nodiscard]] std::int64_t pings() const { return engine_.pings(); }
   [[nodiscard]] const Sector& sector() const { return engine_.sector(); }
   [[nodiscard]] const BeamGrid& grid() const { return engine_.grid(); }
+  [[nodiscard]] const Recipe& recipe() const { return engine_.recipe(); }
   [[nodiscard]] Engine& engine() { return engine_; }
   /// What commands need; its pings come through a cache.
   [[nodiscard]] const CommandContext& context() const { return context_; }

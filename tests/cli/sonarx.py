@@ -29,7 +29,8 @@ SCHOOL_PINGS = (
     "mass_depth_m,"
     "speed_smoothed_mps,speed_smoothed_se_mps,course_smoothed_deg,vertical_speed_smoothed_mps,"
     "speed_water_smoothed_mps,course_water_smoothed_deg,relative_bearing_deg,ship_speed_mps,course_away_deg,"
-    "speed_away_mps,speed_away_se_mps,speed_away_water_mps,time_to_cpa_s,cpa_m,wake_distance_m,depth_error_m").split(",")
+    "speed_away_mps,speed_away_se_mps,speed_away_water_mps,time_to_cpa_s,cpa_m,wake_distance_m,depth_error_m,"
+    "extinction_loss_db,extinction_share,extinction_share_low,extinction_share_high,extinction_corrected").split(",")
 SCHOOLS = (
     "observation,school_id,continues,first_time_utc,last_time_utc,n_pings,n_pings_whole,latitude,longitude,depth_m,"
     "volume_m3,volume_corrected_m3,length_m,width_m,height_m,sv_mean_db,sv_corrected_db,backscatter_m2,speed_mps,"
@@ -41,7 +42,8 @@ SCHOOLS = (
     "sv_kurtosis,core_edge_db,nasc_m2_nmi2,surface_distance_m,bottom_distance_m,horizontal_range_m,"
     "incidence_deg,diner_nb_across,diner_nb_height,"
     "course_se_deg,vertical_speed_se_mps,tortuosity,tortuosity_se,speed_water_mps,speed_water_se_mps,"
-    "course_water_deg,course_water_se_deg,current_east_mps,current_north_mps,current_se_mps,depth_error_m").split(",")
+    "course_water_deg,course_water_se_deg,current_east_mps,current_north_mps,current_se_mps,depth_error_m,"
+    "extinction_loss_db,extinction_share,extinction_share_low,extinction_share_high,extinction_corrected").split(",")
 
 
 def run(*arguments, timeout=600, cache=WORK / "cache"):

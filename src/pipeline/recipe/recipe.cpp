@@ -146,6 +146,12 @@ Result<void> validate_recipe(const Recipe& recipe) {
     return fail(ErrorCode::bad_parameter,
                 fmt::format("detect.left_out: no judge {}; there are {}", none, fmt::join(kJudgeNames, ", ")));
   }
+  const ExtinctionParams& extinction = recipe.measure.extinction;
+  if (extinction.ratio < extinction.ratio_low || extinction.ratio > extinction.ratio_high) {
+    return fail(ErrorCode::bad_parameter,
+                fmt::format("measure.extinction.ratio = {} does not lie within ratio_low = {} .. ratio_high = {}",
+                            extinction.ratio, extinction.ratio_low, extinction.ratio_high));
+  }
   if (auto valid = check_beams(recipe.calibration.beams); !valid) return pass_on(valid);
   return {};
 }

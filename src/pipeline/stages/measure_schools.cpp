@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/stages/measure_schools.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -15,6 +17,7 @@
 #include "base/hash.h"
 #include "pipeline/survey/beam_figures.h"
 #include "school/measure/correct_sizes.h"
+#include "school/measure/extinction.h"
 #include "school/measure/measure.h"
 #include "school/measure/movement.h"
 #include "school/measure/summarise.h"
@@ -107,15 +110,28 @@ Hash128 key_of(const Engine& engine, std::int64_t ping_index, const std::vector<
 std::vector<MeasuredMask> measure_ping(const StagedPing& ping, const Engine& engine,
                                        const std::vector<InPingRef>& schools, double area) {
   MeasureInput input = input_of(engine, ping, area);
+  std::vector<const PingMask*> masks;
+  for (const InPingRef& school : schools) masks.push_back(&school.in_ping->mask);
   std::optional<EchoClaims> claims;
   if (schools.size() > 1) {
-    std::vector<const PingMask*> masks;
-    for (const InPingRef& school : schools) masks.push_back(&school.in_ping->mask);
     claims = echo_claims(input, masks);
     input.claims = &*claims;
   }
+  const ExtinctionParams& extinction = engine.recipe().measure.extinction;
+  const PingShadow shadow(input, masks, extinction);
+  Array3<std::int16_t> sv;
+  Array3<std::int16_t> filtered;
+  if (extinction.correct) {
+    sv = without_extinction(input.sv, input.background, shadow.gain());
+    filtered = without_extinction(input.filtered, input.background, shadow.gain());
+    input.sv = std::as_const(sv).view();
+    input.filtered = std::as_const(filtered).view();
+  }
   std::vector<MeasuredMask> rows;
-  for (std::size_t i = 0; i < schools.size(); ++i) rows.push_back(measure_one(engine, ping, schools, i, input));
+  for (std::size_t i = 0; i < schools.size(); ++i) {
+    rows.push_back(measure_one(engine, ping, schools, i, input));
+    shadow.tell(schools[i].in_ping->mask, rows.back().school.row);
+  }
   return rows;
 }
 
@@ -292,6 +308,11 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
   }
   product.grid = grid_record(engine.observation(), engine.recipe().calibration);
   product.school_pings = corrected_rows(rows, engine.recipe().measure);
+  if (engine.recipe().measure.extinction.correct && !product.school_pings.empty()) {
+    product.diagnostics.push_back({DiagnosticCode::extinction_corrected, "", -1, -1,
+                                   fmt::format("schools are corrected for extinction, sigma_e/sigma = {:g}",
+                                               engine.recipe().measure.extinction.ratio)});
+  }
   summarise_schools(schools, engine.recipe(), product);
   take_masks(schools, faults, product);
   return {};

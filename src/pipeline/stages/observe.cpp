@@ -166,7 +166,7 @@ Result<void> prepare_again(Engine& engine, PingReach reach, ObservationProduct& 
   std::erase_if(product.diagnostics, [](const Diagnostic& note) {
     return note.code == DiagnosticCode::not_calibrated || note.code == DiagnosticCode::calibration_unused ||
            note.code == DiagnosticCode::gain_not_matched || note.code == DiagnosticCode::absorption_computed ||
-           note.code == DiagnosticCode::psi_against_widths;
+           note.code == DiagnosticCode::psi_against_widths || note.code == DiagnosticCode::extinction_corrected;
   });
   product.recipe_json = recipe_text(engine.recipe());
   product.recipe_hash = recipe_hash(engine.recipe());

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "geo/frames.h"
 #include "geo/sector.h"
 #include "model/mask.h"
 #include "pipeline/stages/engine.h"
 #include "school/measure/echo_statistics.h"
+#include "school/measure/extinction_params.h"
 
 namespace sonar {
 
@@ -23,5 +27,12 @@ struct VoxelStatistics {
 /// placement  of the ping: depths below the water line, the axis by its heading
 [[nodiscard]] VoxelStatistics statistics_of(const PingMask& mask, const StagedPing& ping, const Sector& sector,
                                             const Placement& placement);
+
+/// Where what is heard of a beam lies in the shadow of schools: from that sample on, 2-way loss of least_db or more; no
+/// sample = the record's end. [row]
+/// masks  of the schools that take sound out
+[[nodiscard]] std::vector<int> shadow_from(const StagedPing& ping, const Sector& sector,
+                                           std::span<const PingMask* const> masks, const ExtinctionParams& params,
+                                           double least_db);
 
 }  // namespace sonar

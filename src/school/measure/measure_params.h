@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/describe.h"
+#include "school/measure/extinction_params.h"
 
 namespace sonar {
 
@@ -33,6 +34,7 @@ struct MeasureParams {
   double min_level_share = 0.05;
   double seabed_beyond_share = 0.3;
   double seabed_beyond_m = 20.0;
+  ExtinctionParams extinction;
 };
 
 template <class Visitor>
@@ -199,6 +201,7 @@ void describe(Visitor& v, MeasureParams& p) {
            .max = 10000,
            .text = "How far beyond the area where the seabed was seen its plane still gives a seabed depth, in "
                    "addition to seabed_beyond_share; raise it over flat ground, lower it over uneven ground."});
+  v.group("extinction", p.extinction, "sound that dense schools take out of the beams");
 }
 
 }  // namespace sonar

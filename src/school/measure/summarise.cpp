@@ -189,6 +189,11 @@ SchoolRow summarise(std::span<const SchoolPingRow> rows, const SummariseParams& 
   summarise_place(used, out);
   out.depth_m = mean_of(used, &SchoolPingRow::depth_m);
   out.depth_error_m = mean_of(used, &SchoolPingRow::depth_error_m);
+  out.extinction_loss_db = mean_of(used, &SchoolPingRow::extinction_loss_db);
+  out.extinction_share = mean_of(used, &SchoolPingRow::extinction_share);
+  out.extinction_share_low = mean_of(used, &SchoolPingRow::extinction_share_low);
+  out.extinction_share_high = mean_of(used, &SchoolPingRow::extinction_share_high);
+  out.extinction_corrected = mean_of(used, &SchoolPingRow::extinction_corrected);
   out.volume_m3 = median_of(used, &SchoolPingRow::volume_m3);
   out.length_m = median_of(used, &SchoolPingRow::length_m);
   out.width_m = median_of(used, &SchoolPingRow::width_m);

@@ -105,6 +105,10 @@ Result<SlicePicture> slice_of(const SliceWish& wish, PixelSize size) {
     data.masks.push_back(std::move(layer));
   }
   data.refused = wish.refused;
+  if (wish.display.shadow) {
+    data.shadow_from =
+        shadow_of_schools(*wish.ping, wish.observation->sector(), data.masks, wish.observation->recipe(), wish.display);
+  }
   SliceStyle style = slice_style(wish.display, *wish.colours);
   style.north_up = wish.north_up;
   const Theme theme = screen_theme(size, wish.look);

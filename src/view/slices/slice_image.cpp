@@ -77,6 +77,20 @@ void colour_flagged_samples(Image& image, const SliceMap& map, const SliceData& 
   }
 }
 
+/// Stripes that rise to the other side than those of faulty samples.
+void hatch_shadow(Image& image, const SliceMap& map, const std::vector<int>& from, const Theme& theme) {
+  const std::vector<std::int32_t>& voxels = map.voxels();
+  const int samples = map.sector().range().count;
+  std::size_t i = 0;
+  for (int y = 0; y < image.size.height; ++y) {
+    for (int x = 0; x < image.size.width; ++x, ++i) {
+      if (voxels[i] < 0 || !on_hatch(x, image.size.height - 1 - y, theme)) continue;
+      if (voxels[i] % samples < from[static_cast<std::size_t>(voxels[i] / samples)]) continue;
+      image.pixels[i] = mixed(image.pixels[i], theme.hatch, theme.hatch.a);
+    }
+  }
+}
+
 }  // namespace
 
 Result<Image> slice_image(const SliceMap& map, const SliceData& data, const SvColours& colours, const FlagStyle& flags,
@@ -96,6 +110,7 @@ Result<Image> slice_image(const SliceMap& map, const SliceData& data, const SvCo
   } else {
     colour_samples(image, map, data, table);
   }
+  if (data.shadow_from.size() == shape.rows()) hatch_shadow(image, map, data.shadow_from, theme);
   if (auto ok = blend_masks(image, map, data.masks, masks, theme); !ok) return pass_on(ok);
   return image;
 }

@@ -147,4 +147,18 @@ std::vector<KeyEntry> slice_key(const SliceStyle& style, const std::vector<bool>
   return out;
 }
 
+KeyEntry shadow_key(const Theme& theme) {
+  return {"in the shadow of schools", [theme](FrameDescription& frame, const PixelRect& at) {
+            const PixelSize size{std::max(1, static_cast<int>(at.width)), std::max(1, static_cast<int>(at.height))};
+            auto image = std::make_shared<Image>(size, theme.water);
+            for (int y = 0; y < size.height; ++y) {
+              for (int x = 0; x < size.width; ++x) {
+                if (on_hatch(x, size.height - 1 - y, theme))
+                  image->at(x, y) = mixed(theme.water, theme.hatch, theme.hatch.a);
+              }
+            }
+            frame.items.emplace_back(ImageItem{at, std::move(image), false});
+          }};
+}
+
 }  // namespace sonar

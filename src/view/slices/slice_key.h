@@ -21,4 +21,7 @@ namespace sonar {
 [[nodiscard]] std::vector<KeyEntry> slice_key(const SliceStyle& style, const std::vector<bool>& cut,
                                               const Theme& theme);
 
+/// Of SliceData::shadow_from.
+[[nodiscard]] KeyEntry shadow_key(const Theme& theme);
+
 }  // namespace sonar

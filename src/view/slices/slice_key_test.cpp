@@ -109,5 +109,38 @@ TEST(SlicePicture, AKeySaysThatTheSeabedWasTakenOut) {
   EXPECT_TRUE(std::ranges::none_of(words, [](const std::string& w) { return w.starts_with("not drawn"); }));
 }
 
+// One beam lies in shadow from its sample 20 on: stripes there and nowhere else, and a word for them in the key.
+TEST(SlicePicture, ShadowIsHatchedFromItsSampleOn) {
+  const Sector sector = hand_sector();
+  const LitVolume volume(sector, kLit, -30.0, -60.0);
+  const PixelSize size{800, 600};
+  SliceStyle style;
+  style.key = SliceKey{};
+  SliceData data = volume.data();
+  data.shadow_from.assign(56, 41);
+  data.shadow_from[4 * 7 + 3] = 20;
+  const auto picture = slice_picture(sector, data, {}, kTop, style, light_theme(size), size);
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(std::ranges::count(texts_of(*picture), "in the shadow of schools"), 1);
+  const auto image = slice_image(*picture->map, data, style.colours, style.flags, style.masks, light_theme(size));
+  const auto plain =
+      slice_image(*picture->map, volume.data(), style.colours, style.flags, style.masks, light_theme(size));
+  ASSERT_TRUE(image && plain);
+  int striped = 0;
+  int in_shadow = 0;
+  for (int y = 0; y < image->size.height; ++y) {
+    for (int x = 0; x < image->size.width; ++x) {
+      const auto voxel = picture->map->voxel_at({x + 0.5, y + 0.5});
+      const bool behind = voxel && voxel->beam == 3 && voxel->sample >= 20;
+      const bool changed = !(image->at(x, y) == plain->at(x, y));
+      in_shadow += behind ? 1 : 0;
+      striped += changed ? 1 : 0;
+      EXPECT_TRUE(behind || !changed) << x << ' ' << y;
+    }
+  }
+  EXPECT_GT(striped, in_shadow / 10);
+  EXPECT_LT(striped, in_shadow / 2);
+}
+
 }  // namespace
 }  // namespace sonar

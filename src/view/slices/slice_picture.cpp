@@ -127,6 +127,7 @@ std::vector<KeyEntry> key_of(const Sector& sector, const SliceData& data, const 
   }
   std::vector<KeyEntry> key = slice_key(style, cut, theme);
   if (refused) key.push_back(refused_key(theme));
+  if (!data.shadow_from.empty()) key.push_back(shadow_key(theme));
   return key;
 }
 

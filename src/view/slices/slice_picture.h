@@ -47,6 +47,7 @@ struct SliceData {
   View3<const SampleFlags> flags;  ///< same shape, or empty
   std::vector<MaskLayer> masks;    ///< later ones lie above earlier ones
   std::vector<RefusedMark> refused = {};
+  std::vector<int> shadow_from = {};  ///< [row] sample from which schools' shadow is hatched; empty = not drawn
 };
 
 /// Colours a ping through a map: gather and look-up only.
