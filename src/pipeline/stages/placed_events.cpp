@@ -21,16 +21,16 @@ InPing nearest(std::span<const SchoolMasks> found, std::int64_t track_id, std::i
 }
 
 /// The school that has most of the voxels.
-std::optional<std::int64_t> owner(const InPing& voxels, std::span<const SchoolMasks> schools) {
+std::optional<std::int64_t> owner(const InPing& voxels, std::span<const NumberedMasks> schools) {
   std::optional<std::int64_t> best;
   std::size_t most = 0;
-  for (const SchoolMasks& school : schools) {
-    const auto there = std::ranges::lower_bound(school.pings, voxels.ping_index, {}, &InPing::ping_index);
-    if (there == school.pings.end() || there->ping_index != voxels.ping_index) continue;
+  for (const auto& [number, masks] : schools) {
+    const auto there = std::ranges::lower_bound(masks->pings, voxels.ping_index, {}, &InPing::ping_index);
+    if (there == masks->pings.end() || there->ping_index != voxels.ping_index) continue;
     const std::size_t shared = overlap(there->mask, voxels.mask);
     if (shared <= most) continue;
     most = shared;
-    best = school.decided.school_id;
+    best = number;
   }
   return best;
 }
@@ -49,9 +49,15 @@ std::vector<PlacedEvent> placed_events(std::span<const TrackEvent> events, std::
 }
 
 std::vector<TrackEvent> events_now(std::span<const PlacedEvent> placed, std::span<const SchoolMasks> schools) {
+  std::vector<NumberedMasks> numbered;
+  for (const SchoolMasks& school : schools) numbered.push_back({school.decided.school_id, &school});
+  return events_now(placed, numbered);
+}
+
+std::vector<TrackEvent> events_now(std::span<const PlacedEvent> placed, std::span<const NumberedMasks> schools) {
   std::map<std::int64_t, std::int64_t> of_track;
-  for (const SchoolMasks& school : schools) {
-    if (school.track_id != 0) of_track[school.track_id] = school.decided.school_id;
+  for (const auto& [number, masks] : schools) {
+    if (masks->track_id != 0) of_track[masks->track_id] = number;
   }
   const auto now = [&](const InPing& voxels, std::int64_t track_id) -> std::int64_t {
     if (const auto has = owner(voxels, schools)) return *has;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,13 @@ struct PlacedEvent {
 /// or to one that is gone, is no event.
 [[nodiscard]] std::vector<TrackEvent> events_now(std::span<const PlacedEvent> placed,
                                                  std::span<const SchoolMasks> schools);
+/// The same of schools that have their numbers elsewhere. A view.
+struct NumberedMasks {
+  std::int64_t number = 0;
+  const SchoolMasks* masks = nullptr;
+};
+[[nodiscard]] std::vector<TrackEvent> events_now(std::span<const PlacedEvent> placed,
+                                                 std::span<const NumberedMasks> schools);
 
 /// Notes of a product, and back.
 [[nodiscard]] Diagnostics event_notes(std::span<const TrackEvent> events);
