@@ -49,7 +49,7 @@ void add_common(CLI::App& verb, RenderArguments& a) {
   suits(verb.add_option("--observation", a.observation,
                         "Observation to draw, e.g. obs-0001; default: the first, and of a chart all")
             ->check(some_name()),
-        "slice- volume propagation observation-map timeline echogram chart frequency noise-steps movie");
+        "slice- volume propagation observation-map timeline echogram chart frequency noise-steps lineage movie");
   suits(verb.add_option("--ping", a.picture.ping,
                         "Ping index; default: that of the strongest whole school, else the middle one"),
         kOfPing);

@@ -63,7 +63,7 @@ void lay_out_small(QMainWindow& window) {
   behind(window, side, {"volume", "range_slice", "plane_slice", "noise_steps"});
   behind(window, time,
          {"echogram", "survey_timeline", "propagation", "schools", "school_pings", "review", "refused", "marks",
-          "chart", "frequency"});
+          "chart", "frequency", "lineage"});
   const int width = window.width();
   const int height = window.height();
   share(window, Qt::Horizontal, {{top, width * 33 / 100}, {side, width * 33 / 100}, {right, width * 34 / 100}});
@@ -97,7 +97,7 @@ void lay_out_docks(QMainWindow& window) {
   behind(window, side, {"range_slice", "plane_slice", "noise_steps"});
   behind(window, notes, {"journal"});
   behind(window, maps, {"survey_map"});
-  behind(window, time, {"echogram", "survey_timeline", "propagation"});
+  behind(window, time, {"echogram", "survey_timeline", "propagation", "lineage"});
   behind(window, tables, {"school_pings", "review", "refused", "marks", "chart", "frequency"});
   const int width = window.width();
   const int height = window.height();

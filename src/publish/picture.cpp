@@ -11,6 +11,7 @@
 #include "publish/chart_picture.h"
 #include "publish/echogram_picture.h"
 #include "publish/frequency_picture.h"
+#include "publish/lineage_picture.h"
 #include "publish/map_pictures.h"
 #include "publish/noise_steps_picture.h"
 #include "publish/report_page.h"
@@ -31,6 +32,8 @@ Result<FrameDescription> observation_frame(PictureKind kind, DrawnObservation& o
       return observation_map_frame(observation, options);
     case PictureKind::frequency:
       return frequency_frame(observation, options, work);
+    case PictureKind::lineage:
+      return lineage_frame(observation, options);
     case PictureKind::noise_steps:
       return noise_steps_frame(observation, options, work);
     default:

@@ -7,7 +7,7 @@
 namespace sonar {
 
 std::span<const PictureKindInfo> picture_kinds() {
-  static constexpr std::array<PictureKindInfo, 15> kinds{{
+  static constexpr std::array<PictureKindInfo, 16> kinds{{
       {"slice-top", "one fan from above, every cell with its own value"},
       {"slice-side", "one vertical fan from the side"},
       {"slice-range", "all beams at one range"},
@@ -21,6 +21,7 @@ std::span<const PictureKindInfo> picture_kinds() {
       {"chart", "figures of schools: one column of a table over another, or the histogram of one"},
       {"frequency", "mean Sv of schools, and of the water round them, in each fan over the fan's frequency"},
       {"noise-steps", "a slice as recorded and after each step of noise removal, or two of the steps compared"},
+      {"lineage", "what became of an observation's schools: born, split, merged, lost and seen again, a lane each"},
       {"movie", "one of the kinds that show a ping, moving: over pings, round a ping, or along the track"},
       {"report",
        "the survey on one page: map, timeline, strongest schools and what the numbers mean; as .html the whole of it"},

@@ -24,6 +24,7 @@ enum class PictureKind : std::uint8_t {
   chart,
   frequency,
   noise_steps,
+  lineage,
   movie,
   report,
 };

@@ -55,6 +55,7 @@ constexpr std::array<ActionGroup, 6> kObservationMap{kDecide, kFollow, kEcho, kM
 constexpr std::array<ActionGroup, 4> kSurveyMap{kDecide, kChart, kMeasureMap, kPicture};
 constexpr std::array<ActionGroup, 4> kPropagation{kFollow, kShape, kStrip, kPicture};
 constexpr std::array<ActionGroup, 6> kTimeline{kMark, kEvents, kBad, kEcho, kNextEvent, kPicture};
+constexpr std::array<ActionGroup, 5> kLineage{kDecide, kParts, kBad, kMap, kPicture};
 constexpr std::array<ActionGroup, 4> kEchogram{kEvents, kBad, kEchogramLook, kPicture};
 constexpr std::array<ActionGroup, 3> kCharts{kDecide, kFigures, kPicture};
 constexpr std::array<ActionGroup, 3> kFrequency{kDecide, kOverFrequency, kPicture};
@@ -106,28 +107,15 @@ struct Menu {
   Id dock;
   std::span<const ActionGroup> groups;
 };
-constexpr std::array<Menu, 22> kMenus{{{"top_slice", kSlice},
-                                       {"side_slice", kSlice},
-                                       {"range_slice", kSlice},
-                                       {"plane_slice", kPlaneSlice},
-                                       {"volume", kVolume},
-                                       {"observation_map", kObservationMap},
-                                       {"survey_map", kSurveyMap},
-                                       {"propagation", kPropagation},
-                                       {"observation_timeline", kTimeline},
-                                       {"survey_timeline", kTimeline},
-                                       {"echogram", kEchogram},
-                                       {"survey_tree", kTree},
-                                       {"schools", kSchoolRows},
-                                       {"review", kSchoolRows},
-                                       {"school_pings", kPingRows},
-                                       {"refused", kRefusedRows},
-                                       {"marks", kMarkRows},
-                                       {"journal", kJournal},
-                                       {"diagnostics", kNotes},
-                                       {"chart", kCharts},
-                                       {"noise_steps", kNoise},
-                                       {"frequency", kFrequency}}};
+constexpr std::array<Menu, 23> kMenus{
+    {{"top_slice", kSlice},          {"side_slice", kSlice},        {"range_slice", kSlice},
+     {"plane_slice", kPlaneSlice},   {"volume", kVolume},           {"observation_map", kObservationMap},
+     {"survey_map", kSurveyMap},     {"propagation", kPropagation}, {"observation_timeline", kTimeline},
+     {"survey_timeline", kTimeline}, {"echogram", kEchogram},       {"lineage", kLineage},
+     {"survey_tree", kTree},         {"schools", kSchoolRows},      {"review", kSchoolRows},
+     {"school_pings", kPingRows},    {"refused", kRefusedRows},     {"marks", kMarkRows},
+     {"journal", kJournal},          {"diagnostics", kNotes},       {"chart", kCharts},
+     {"noise_steps", kNoise},        {"frequency", kFrequency}}};
 
 }  // namespace
 

@@ -53,6 +53,7 @@ struct ViewSwitches {
   bool chart = true;
   bool noise_steps = false;
   bool frequency = false;
+  bool lineage = false;
 };
 
 template <class Visitor>
@@ -70,6 +71,7 @@ void describe(Visitor& v, ViewSwitches& p) {
   v.field("chart", p.chart, {.text = "the chart of schools' figures"});
   v.field("frequency", p.frequency, {.text = "the chart of schools over the frequencies of the fans"});
   v.field("noise_steps", p.noise_steps, {.text = "the slice at each step of noise removal"});
+  v.field("lineage", p.lineage, {.text = "what became of the observation's schools"});
 }
 
 }  // namespace sonar

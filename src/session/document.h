@@ -182,6 +182,9 @@ class Document {
   [[nodiscard]] bool lacks_detected(std::size_t observation) const { return survey_->lacks_detected(observation); }
   /// What lay above the background where schools were looked for and is no school now: rows of /rejected. Never null.
   [[nodiscard]] RefusedPtr refused(std::size_t observation) const { return survey_->refused(observation); }
+  /// What the tracker noted of the schools that were found, with their voxels: events_now() tells whom it is about now.
+  /// Never null.
+  [[nodiscard]] EventsPtr found_events(std::size_t observation) const { return survey_->found_events(observation); }
   /// Schools and their figures as far as they are measured; null where the observation is not open.
   [[nodiscard]] ProductPtr product(std::size_t observation) const { return survey_->product(observation); }
 

@@ -35,6 +35,7 @@ struct Snapshot {
   std::shared_ptr<const std::vector<JournalLine>> lines;
   std::map<std::size_t, JournalStatePtr> states;
   std::map<std::size_t, RefusedPtr> refused;
+  std::map<std::size_t, EventsPtr> events;
   std::map<std::size_t, ProductPtr> products;
   std::vector<ProductPtr> results;  ///< see Document::results()
   std::vector<SurveyNumber> numbers;
@@ -54,6 +55,7 @@ Snapshot snapshot_of(const Workspace& workspace) {
                     document.choices().states,
                     {},
                     {},
+                    {},
                     document.results(),
                     document.survey_numbers(),
                     document.all_measured(),
@@ -64,6 +66,7 @@ Snapshot snapshot_of(const Workspace& workspace) {
   std::erase_if(snapshot.states, [&document](const auto& one) { return document.lacks_detected(one.first); });
   for (const auto& [index, state] : snapshot.states) {
     snapshot.refused[index] = document.refused(index);
+    snapshot.events[index] = document.found_events(index);
     if (auto product = document.product(index)) snapshot.products[index] = std::move(product);
   }
   return snapshot;
@@ -89,8 +92,10 @@ Result<ObservationProduct> product_of(const Snapshot& snapshot, const ReadJourna
     return observe(*snapshot.survey, observation, snapshot.recipe, {{}, journal, snapshot.program_version}, work);
   }
   Engine engine(*snapshot.survey, observation, snapshot.measuring);
-  return state_product(engine, *state->second,
-                       {journal, snapshot.program_version, true, nullptr, *snapshot.refused.at(index)}, work);
+  return state_product(
+      engine, *state->second,
+      {journal, snapshot.program_version, true, nullptr, *snapshot.refused.at(index), *snapshot.events.at(index)},
+      work);
 }
 
 ProductSource source_of_products(const Snapshot& snapshot, Work& work) {

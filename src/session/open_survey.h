@@ -47,6 +47,7 @@ struct Progress {
 
 using ProductPtr = std::shared_ptr<const ObservationProduct>;
 using RefusedPtr = std::shared_ptr<const std::vector<RefusedEcho>>;
+using EventsPtr = std::shared_ptr<const std::vector<PlacedEvent>>;
 
 /// What reading a survey brings.
 struct SurveyRead {
@@ -99,6 +100,7 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
   [[nodiscard]] bool asks_for_schools(std::size_t observation) const;
   [[nodiscard]] bool lacks_detected(std::size_t observation) const;
   [[nodiscard]] RefusedPtr refused(std::size_t observation) const;
+  [[nodiscard]] EventsPtr found_events(std::size_t observation) const;
   [[nodiscard]] ProductPtr product(std::size_t observation) const;
   [[nodiscard]] bool all_measured() const;
   void keep_survey_numbers(std::vector<SurveyNumber> numbers);
@@ -113,7 +115,11 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
     std::vector<SchoolMasks> schools;
     std::vector<RefusedEcho> refused;
     std::shared_ptr<const EarlierSchools> earlier;  ///< see earlier_found()
+    EventsPtr events;
   };
+  /// schools  detected_schools() or decided_schools() of it
+  [[nodiscard]] static Found found_in(const ObservationProduct& product, std::vector<SchoolMasks> schools,
+                                      std::shared_ptr<const EarlierSchools> earlier = {});
   /// What was measured of an observation, in this session and, once read from the cache, before it.
   struct KeptMeasures {
     MeasuredPings measured;
@@ -136,6 +142,7 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
     ProductPtr product;                                     ///< null before it is measured
     std::optional<std::vector<RefusedEcho>> found_refused;  ///< as detection told them; none = it was not looked for
     RefusedPtr refused;                                     ///< those of them that are no school now
+    EventsPtr found_events;                                 ///< as detection noted them; null = it was not looked for
   };
 
   void tell(DocumentChange change);
@@ -160,8 +167,8 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
   void measure_changed(const ChoicesShown& before);
   void measure(std::size_t index);
   void measure_behind(const OpenObservationPtr& observation, const JournalState& state,
-                      const std::vector<JournalLine>& lines, const RefusedPtr& refused, KeptMeasures& kept,
-                      const CancelToken& token, Work& work);
+                      const std::vector<JournalLine>& lines, const RefusedPtr& refused, const EventsPtr& events,
+                      KeptMeasures& kept, const CancelToken& token, Work& work);
   [[nodiscard]] std::string key_of(OpenObservation& observation) const;
   void keep_measures();
   [[nodiscard]] std::vector<IndexCache> kept_in() const;

@@ -44,16 +44,16 @@ void OpenSurvey::measure(std::size_t index) {
                                                                      std::int64_t) mutable { give_way(); });
   const CancelToken posted =
       measures_.post([this, observation = at->second.open, state, lines = choices_.lines, work, kept = at->second.kept,
-                      refused = refused(index)](const CancelToken& token) {
-        if (!token.cancelled()) measure_behind(observation, *state, *lines, refused, *kept, token, *work);
+                      refused = refused(index), events = found_events(index)](const CancelToken& token) {
+        if (!token.cancelled()) measure_behind(observation, *state, *lines, refused, events, *kept, token, *work);
         post({}, [this] { take_measured(); });
       });
   at->second.measuring = {posted, work};
 }
 
 void OpenSurvey::measure_behind(const OpenObservationPtr& observation, const JournalState& state,
-                                const std::vector<JournalLine>& lines, const RefusedPtr& refused, KeptMeasures& kept,
-                                const CancelToken& token, Work& work) {
+                                const std::vector<JournalLine>& lines, const RefusedPtr& refused,
+                                const EventsPtr& events, KeptMeasures& kept, const CancelToken& token, Work& work) {
   if (!observation->survey().raw_gone.empty()) {
     const auto known = state_product_of_results(observation->engine(), state, *read_.products[observation->index()]);
     auto shared = std::make_shared<const ObservationProduct>(known);
@@ -76,7 +76,8 @@ void OpenSurvey::measure_behind(const OpenObservationPtr& observation, const Jou
   const std::vector<JournalLine> effective = effective_lines(lines);
   auto product = within_memory([&] {
     return state_product(observation->engine(), state,
-                         {effective, document_.options().program_version, false, &kept.measured, *refused}, work);
+                         {effective, document_.options().program_version, false, &kept.measured, *refused, *events},
+                         work);
   });
   if (!product) {
     if (product.error().code != ErrorCode::no_space) return;

@@ -62,7 +62,7 @@ void OpenSurvey::detect_one(const std::shared_ptr<const SurveyFiles>& survey, st
   if (!observation.grid) return;
   if (!survey->raw_gone.empty()) {
     const ObservationProduct& product = *read_.products[index];
-    return post(token, [this, survey, index, step, found = Found{decided_schools(product), product.rejected, nullptr}] {
+    return post(token, [this, survey, index, step, found = found_in(product, decided_schools(product))] {
       if (survey == read_.files) take_detected(index, found, step);
     });
   }
@@ -81,7 +81,7 @@ void OpenSurvey::detect_one(const std::shared_ptr<const SurveyFiles>& survey, st
     if (!earlier) earlier = earlier_found(file, *survey, observation);
   }
   const auto take = [&](const ObservationProduct& product) {
-    post(token, [this, survey, index, step, found = Found{detected_schools(product), product.rejected, earlier}] {
+    post(token, [this, survey, index, step, found = found_in(product, detected_schools(product), earlier)] {
       if (survey == read_.files) take_detected(index, found, step);
     });
   };
@@ -101,12 +101,19 @@ void OpenSurvey::detect_one(const std::shared_ptr<const SurveyFiles>& survey, st
   keep_detected(files.front(), *product);
 }
 
+OpenSurvey::Found OpenSurvey::found_in(const ObservationProduct& product, std::vector<SchoolMasks> schools,
+                                       std::shared_ptr<const EarlierSchools> earlier) {
+  auto events = std::make_shared<const std::vector<PlacedEvent>>(placed_events(noted_events(product), schools));
+  return {std::move(schools), product.rejected, std::move(earlier), std::move(events)};
+}
+
 void OpenSurvey::take_detected(std::size_t index, Found found, const std::shared_ptr<JournalStep>& step) {
   const auto number = static_cast<std::int64_t>(found.schools.size());
   AtWork& at = opened(index);
   unreplayed_.erase(index);
   choices_thread_->open(at.chosen_on, std::move(found.schools), std::move(found.earlier));
   at.found_refused = std::move(found.refused);
+  at.found_events = std::move(found.events);
   if (!asks_for_detection(effective_lines(*choices_.lines), at.open->context().times)) {
     act(index, 0, DetectCommand{number}, step);
   }
@@ -114,7 +121,7 @@ void OpenSurvey::take_detected(std::size_t index, Found found, const std::shared
 
 void OpenSurvey::take_schools(std::size_t observation, const ObservationProduct& found) {
   if (!read_.files || observation >= read_.files->observations.size()) return;
-  take_detected(observation, {detected_schools(found), found.rejected, nullptr}, nullptr);
+  take_detected(observation, found_in(found, detected_schools(found)), nullptr);
 }
 
 bool OpenSurvey::detected(std::size_t observation) const {
@@ -126,6 +133,12 @@ RefusedPtr OpenSurvey::refused(std::size_t observation) const {
   static const auto kNone = std::make_shared<const std::vector<RefusedEcho>>();
   const auto found = open_.find(observation);
   return found == open_.end() || !found->second.refused ? kNone : found->second.refused;
+}
+
+EventsPtr OpenSurvey::found_events(std::size_t observation) const {
+  static const auto kNone = std::make_shared<const std::vector<PlacedEvent>>();
+  const auto found = open_.find(observation);
+  return found == open_.end() || !found->second.found_events ? kNone : found->second.found_events;
 }
 
 /// Those that are no school by what humans have chosen since.

@@ -33,7 +33,7 @@ struct ViewName {
   const char* text;
   const char* key;
 };
-constexpr std::array<ViewName, 13> kViews{{{"top_slice", "Slice from above", "Alt+1"},
+constexpr std::array<ViewName, 14> kViews{{{"top_slice", "Slice from above", "Alt+1"},
                                            {"side_slice", "Slice from the side", "Alt+2"},
                                            {"range_slice", "Range slice", "Alt+9"},
                                            {"plane_slice", "Plane slice", "Alt+0"},
@@ -45,7 +45,8 @@ constexpr std::array<ViewName, 13> kViews{{{"top_slice", "Slice from above", "Al
                                            {"echogram", "Echogram", "Alt+8"},
                                            {"chart", "Charts", "Alt+Shift+1"},
                                            {"noise_steps", "Noise steps", "Alt+Shift+2"},
-                                           {"frequency", "Schools over frequency", "Alt+Shift+3"}}};
+                                           {"frequency", "Schools over frequency", "Alt+Shift+3"},
+                                           {"lineage", "Lineage of schools", "Alt+Shift+4"}}};
 
 void add_view_switches(AppModel& app) {
   for (const ViewName& view : kViews) {

@@ -234,6 +234,7 @@ class BadInput(unittest.TestCase):
                                                "impulse-noise", "--map", "grey", "--low-db", "-70", "--no-mark"]),
                               ("noise-steps", ["--slice", "range", "--range-m", "150", "--mark-db", "3", "--no-masks"]),
                               ("frequency", ["--observation", "obs-0001", "--schools", "1", "--no-water"]),
+                              ("lineage", ["--observation", "obs-0001", "--schools", "1"]),
                               ("volume", ["--frames", "0", "--unfiltered", "--no-context", "--fuzzy", "0.1"])):
             with self.subTest(kind):
                 code, out, error = render(kind, *BOTH, *options, *picture)

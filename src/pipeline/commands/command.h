@@ -79,6 +79,14 @@ struct SplitCommand {
   std::optional<SeedKey> seed;
 };
 
+/// `hand_over`: what a school has in pings of these times (datagram clock, both included) becomes another's, voxel by voxel.
+struct HandOverCommand {
+  SchoolKey school;
+  std::optional<SchoolKey> to;  ///< empty = a new school
+  TimeNs first = 0;
+  TimeNs last = 0;
+};
+
 /// `delete`: the school is no more.
 struct DeleteCommand {
   SchoolKey school;
@@ -146,7 +154,7 @@ struct DetectCommand {
 };
 
 using Command = std::variant<PropagateCommand, GrowCommand, BrushCommand, EraseCommand, ReshapeCommand, MergeCommand,
-                             SplitCommand, DeleteCommand, DecideCommand, EventCommand, BadPingsCommand,
+                             SplitCommand, HandOverCommand, DeleteCommand, DecideCommand, EventCommand, BadPingsCommand,
                              RemoveEventCommand, GoodPingsCommand, CalibrateCommand, DetectCommand>;
 
 /// A command as a journal holds it.

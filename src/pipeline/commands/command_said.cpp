@@ -28,8 +28,11 @@ class TimesOf : public AboutOf {
   void field(const char*, const SchoolKey& school) {
     if (about() == About::schools) times_.push_back({school.ping_time, school.ping_time});
   }
-  void time(const char*, const TimeNs& time) { times_.push_back({time, time}); }
-  void interval(const TimeNs& first, const TimeNs& last, std::string_view = {}) { times_.push_back({first, last}); }
+  void time(const char*, const TimeNs& time) { interval(time, time); }
+  /// Of an act on masks they only tell which pings of a school are meant.
+  void interval(const TimeNs& first, const TimeNs& last, std::string_view = {}) {
+    if (about() == About::times) times_.push_back({first, last});
+  }
   template <class D>
   void list(const char*, const std::vector<D>& all) {
     alone(all);

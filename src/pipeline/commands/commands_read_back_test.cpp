@@ -114,6 +114,9 @@ TEST(CommandsReadBack, WhatCannotBeDoneIsADiagnosticAndChangesNothing) {
                                                   {0, SplitCommand{key_a(), {}}},
                                                   {3, SplitCommand{key_a(), seed_a()}},
                                                   {3, SplitCommand{key_a(), SeedKey{100000, 3}}},
+                                                  {3, HandOverCommand{key_a(), key_a(2), ping_time(2), ping_time(3)}},
+                                                  {3, HandOverCommand{key_a(), key_b(), ping_time(9), ping_time(10)}},
+                                                  {3, HandOverCommand{key_a(), {}, ping_time(0), ping_time(8)}},
                                                   {3, EraseCommand{{{channel_at(0, 0), 0, 2'000'000'000}}, {}}}};
   JournalState state = after(acts);
   EXPECT_EQ(state.notes.size(), acts.size());

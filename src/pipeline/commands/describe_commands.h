@@ -150,6 +150,15 @@ void describe(V& v, T& c) {
   v.says("split", c.school);
 }
 
+template <class V, Of<HandOverCommand> T>
+void describe(V& v, T& c) {
+  named(v, "hand_over", About::ping);
+  v.field("school", c.school);
+  v.field("to", c.to);
+  v.interval(c.first, c.last);
+  v.says("hand over pings of", c.school);
+}
+
 template <class V, Of<DeleteCommand> T>
 void describe(V& v, T& c) {
   named(v, "delete", About::ping);

@@ -68,10 +68,10 @@ TEST(DescribeCommands, EveryKindHasAnExampleASentenceAndNamesOfItsOwn) {
     for (const std::string& name : of.names) EXPECT_TRUE(taken.insert(name).second) << name << " is two commands";
   });
   // As docs/interfaces.md lists them.
-  EXPECT_THAT(taken, testing::UnorderedElementsAre("propagate", "grow", "brush", "erase", "fill_holes", "smooth",
-                                                   "largest_part", "merge", "split", "delete", "decide", "species",
-                                                   "comment", "rename", "bulk_decide", "event", "remove_event",
-                                                   "bad_ping", "bad_interval", "good_interval", "calibrate", "detect"));
+  EXPECT_THAT(taken, testing::UnorderedElementsAre(
+                         "propagate", "grow", "brush", "erase", "fill_holes", "smooth", "largest_part", "merge",
+                         "split", "hand_over", "delete", "decide", "species", "comment", "rename", "bulk_decide",
+                         "event", "remove_event", "bad_ping", "bad_interval", "good_interval", "calibrate", "detect"));
 }
 
 TEST(DescribeCommands, WhatIsWrittenIsReadAndNothingElseIsWritten) {
@@ -105,6 +105,8 @@ TEST(DescribeCommands, LinesReadAsTheFormatSays) {
       {"merge", R"({"schools":[)" + school + R"(,{"channel":8,"ping_time":9,"sample":1}]})"},
       {"split", R"({"school":)" + school + "}"},
       {"split", R"({"school":)" + school + R"(,"seed":{"channel":8,"sample":1}})"},
+      {"hand_over", R"({"first":9,"last":12,"school":)" + school + "}"},
+      {"hand_over", R"({"first":9,"last":12,"school":)" + school + R"(,"to":{"channel":8,"ping_time":9,"sample":1}})"},
       {"delete", R"({"school":)" + school + "}"},
       {"decide", R"({"comment":"by the wreck","school":)" + school + R"(,"status":"accepted"})"},
       {"species", R"({"school":)" + school + R"(,"species":"herring"})"},

@@ -172,13 +172,12 @@ void Edit::take_ends(std::size_t from, std::size_t into) {
   if (gone.last) ends.last = std::max(*gone.last, ends.last.value_or(*gone.last));
 }
 
-void Edit::part(std::size_t from, std::size_t apart) {
+void Edit::part(std::size_t from, const std::vector<SchoolMasks::InPing>& apart) {
   for (std::size_t i = 0; i < state_.schools.size(); ++i) {
     const auto found = masks(i).found;
-    if (!found || !same_fish(*found, masks(apart).pings)) continue;
+    if (!found || !same_fish(*found, apart)) continue;
     if (i != from && !same_fish(*found, masks(from).pings)) continue;
-    writable(i).masks.found =
-        std::make_shared<const std::vector<SchoolMasks::InPing>>(without(*found, masks(apart).pings));
+    writable(i).masks.found = std::make_shared<const std::vector<SchoolMasks::InPing>>(without(*found, apart));
   }
 }
 

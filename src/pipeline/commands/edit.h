@@ -51,7 +51,7 @@ class Edit {
   /// What is known of a school's ends holds for the one that it becomes part of.
   void take_ends(std::size_t from, std::size_t into);
   /// What is split off is another school: detection joins it no more with what it is split from.
-  void part(std::size_t from, std::size_t apart);
+  void part(std::size_t from, const std::vector<SchoolMasks::InPing>& apart);
   /// What was found of a detected school tells from now on what belongs to another one.
   void give_found(std::size_t from, std::size_t to);
   void note(DiagnosticCode code, std::string text);
@@ -93,6 +93,7 @@ class Edit {
 [[nodiscard]] Result<void> carry_out(Edit& edit, const ReshapeCommand& command);
 [[nodiscard]] Result<void> carry_out(Edit& edit, const MergeCommand& command);
 [[nodiscard]] Result<void> carry_out(Edit& edit, const SplitCommand& command);
+[[nodiscard]] Result<void> carry_out(Edit& edit, const HandOverCommand& command);
 [[nodiscard]] Result<void> carry_out(Edit& edit, const DeleteCommand& command);
 [[nodiscard]] Result<void> carry_out(Edit& edit, const DecideCommand& command);
 [[nodiscard]] Result<void> carry_out(Edit& edit, const EventCommand& command);

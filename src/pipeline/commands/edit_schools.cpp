@@ -102,7 +102,7 @@ Result<void> split_in_space(Edit& edit, std::size_t school, const SeedKey& seed)
   edit.touch(school);
   const std::size_t added = edit.add(std::move(apart));
   edit.touch(added);
-  edit.part(school, added);
+  edit.part(school, std::vector<InPing>(edit.masks(added).pings));
   return {};
 }
 
@@ -125,7 +125,7 @@ Result<void> split_in_time(Edit& edit, std::size_t school) {
   edit.touch(added);
   // What was taken is a part of the half beside it.
   if (later_taken) edit.give_found(school, added);
-  edit.part(later_taken ? added : school, later_taken ? school : added);
+  edit.part(later_taken ? added : school, std::vector<InPing>(edit.masks(later_taken ? school : added).pings));
   return {};
 }
 
@@ -155,6 +155,57 @@ Result<void> carry_out(Edit& edit, const SplitCommand& command) {
   const auto school = edit.find(command.school);
   if (!school) return pass_on(school);
   return command.seed ? split_in_space(edit, *school, *command.seed) : split_in_time(edit, *school);
+}
+
+namespace {
+
+/// Of a school what lies in pings of some times.
+std::vector<InPing> piece_of(const Edit& edit, std::size_t school, TimeNs first, TimeNs last) {
+  std::vector<InPing> piece;
+  for (const InPing& there : edit.masks(school).pings) {
+    const TimeNs time = edit.context().times[static_cast<std::size_t>(there.ping_index)];
+    if (first <= time && time <= last) piece.push_back(there);
+  }
+  return piece;
+}
+
+/// A school of its own, of which no more is known than of the one that it comes from.
+std::size_t add_piece(Edit& edit, std::size_t from, const std::vector<InPing>& piece) {
+  SchoolMasks apart;
+  apart.decided = edit.masks(from).decided;
+  apart.reach = edit.masks(from).reach;
+  apart.pings = piece;
+  return edit.add(std::move(apart));
+}
+
+}  // namespace
+
+Result<void> carry_out(Edit& edit, const HandOverCommand& command) {
+  const auto from = edit.find(command.school);
+  if (!from) return pass_on(from);
+  const std::vector<InPing> piece = piece_of(edit, *from, command.first, command.last);
+  if (piece.empty()) return fail(ErrorCode::bad_parameter, "the school is in none of these pings");
+  const bool all = piece.size() == edit.masks(*from).pings.size();
+  if (all && !command.to) return fail(ErrorCode::bad_parameter, "the school is in no other pings");
+  std::size_t to = 0;
+  if (command.to) {
+    const auto found = edit.find(*command.to);
+    if (!found) return pass_on(found);
+    if (*found == *from) return fail(ErrorCode::bad_parameter, "both voxels name the same school");
+    to = *found;
+    for (const InPing& there : piece) {
+      edit.set_mask(to, there.ping_index, unite(edit.mask(to, there.ping_index), there.mask), there.threshold_db);
+    }
+    edit.take_ends(*from, to);
+  } else {
+    to = add_piece(edit, *from, piece);
+  }
+  for (const InPing& there : piece) edit.set_mask(*from, there.ping_index, {});
+  edit.touch(*from);
+  edit.touch(to);
+  // All of a school makes it a part of the other, as merging does.
+  if (!all) edit.part(*from, piece);
+  return {};
 }
 
 Result<void> carry_out(Edit& edit, const DeleteCommand& command) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -220,6 +221,77 @@ TEST(OneSchool, SplitBetweenTwoThatWereFoundEachHasItsOwnRest) {
   const JournalState state =
       after({{4, reaching(1)}, {4, SplitCommand{key_a(4), {}}}}, state_of_detected(std::move(two)));
   EXPECT_EQ(parts(state), "1>3 2>4 ");
+}
+
+/// [ping] voxels of all schools together: what backscatter of a ping stands for.
+std::vector<std::size_t> voxels_by_ping(const JournalState& state) {
+  std::vector<std::size_t> voxels(kPings);
+  for (const auto& school : state.schools) {
+    for (const auto& there : school->masks.pings) {
+      voxels[static_cast<std::size_t>(there.ping_index)] += there.mask.voxels();
+    }
+  }
+  return voxels;
+}
+
+/// "1:0-8 2:0-8": who is in which pings.
+std::string tracks(const JournalState& state) {
+  std::string text;
+  for (const auto& school : state.schools) {
+    text += std::to_string(school->number) + ":";
+    const auto& pings = school->masks.pings;
+    for (std::size_t i = 0; i < pings.size(); ++i) {
+      const bool begins = i == 0 || pings[i - 1].ping_index + 1 != pings[i].ping_index;
+      const bool ends = i + 1 == pings.size() || pings[i + 1].ping_index != pings[i].ping_index + 1;
+      if (begins) text += (i == 0 ? "" : ",") + std::to_string(pings[i].ping_index);
+      if (ends) text += "-" + std::to_string(pings[i].ping_index);
+    }
+    text += " ";
+  }
+  return text;
+}
+
+HandOverCommand handing(const SchoolKey& school, std::optional<SchoolKey> to, int first, int last) {
+  return {school, to, ping_time(first), ping_time(last)};
+}
+
+// Whoever has a voxel, it is in one school before and after: in every ping as many as before.
+TEST(OneSchool, TracksAreCutJoinedAndHandedOverWithoutLoss) {
+  const std::vector<std::pair<Acts, std::string>> cases{
+      {{{4, SplitCommand{key_a(), {}}}}, "1:0-3 2:0-8 3:4-8 "},
+      {{{4, SplitCommand{key_a(), {}}}, {4, MergeCommand{{key_a(), key_a(4)}}}}, "1:0-8 2:0-8 "},
+      {{{4, handing(key_a(), key_b(), 3, 5)}}, "1:0-2,6-8 2:0-8 "},
+      {{{4, handing(key_a(), {}, 3, 5)}}, "1:0-2,6-8 2:0-8 3:3-5 "},
+      {{{4, handing(key_a(), {}, 3, 5)}, {4, handing(key_a(4), key_a(0), 3, 5)}}, "1:0-8 2:0-8 "},
+      {{{4, handing(key_a(), key_b(), 0, 8)}}, "2:0-8 "},
+      {{{4, handing(key_a(), key_b(), -9, 99)}}, "2:0-8 "},
+      {{{4, SplitCommand{key_a(), {}}}, {4, handing(key_a(4), key_b(), 4, 4)}}, "1:0-3 2:0-8 3:5-8 "}};
+  const auto before = voxels_by_ping(SmallSea::detected());
+  EXPECT_EQ(before, std::vector<std::size_t>(kPings, 144));
+  for (const auto& [acts, expected] : cases) {
+    const JournalState state = after(acts);
+    EXPECT_TRUE(state.notes.empty()) << expected;
+    EXPECT_EQ(tracks(state), expected);
+    EXPECT_EQ(voxels_by_ping(state), before) << expected;
+  }
+  // What is cut and joined is what it was, voxel by voxel.
+  const JournalState again = after(cases[1].first);
+  const JournalState was = SmallSea::detected();
+  for (std::size_t i = 0; i < again.schools[0]->masks.pings.size(); ++i) {
+    EXPECT_EQ(again.schools[0]->masks.pings[i].mask, was.schools[0]->masks.pings[i].mask) << i;
+  }
+}
+
+// Fish that one click had and another one gets are not what detection found of the first any more.
+TEST(OneSchool, WhatIsHandedOverIsAPartOfTheOtherAlone) {
+  // 1 is the rest of A, found in all pings, 3 what was clicked; 2 gets a piece of the rest.
+  const JournalState given = after({{4, reaching(1)}, {4, handing(key_a(8), key_b(), 6, 7)}});
+  EXPECT_EQ(parts(given), "1>3 ") << "B is no part of A, though it has some of what was found of A";
+  EXPECT_EQ(school_count(tables_of(given)), 2);
+  // Between parts of one school nothing changes.
+  const JournalState within = after({{4, reaching(1)}, {4, handing(key_a(8), key_a(4), 6, 7)}});
+  EXPECT_EQ(school_count(tables_of(within)), 2);
+  EXPECT_EQ(total(within), kBoth);
 }
 
 TEST(OneSchool, ADeletedOrRefusedSelectionIsNoPart) {

@@ -56,6 +56,8 @@ inline std::vector<std::pair<int, Command>> every_command() {
           {3, ReshapeCommand{Reshaping::largest_part, key_b(3), true}},
           {3, MergeCommand{{key_a(), key_b()}}},
           {3, SplitCommand{key_a(), {}}},
+          {3, HandOverCommand{key_a(), key_b(), ping_time(2), ping_time(4)}},
+          {3, HandOverCommand{key_a(), {}, ping_time(7), ping_time(8)}},
           {3, DeleteCommand{key_b()}},
           {3, DecideCommand{{decision(key_a(), "accepted")}, ""}},
           {3, DecideCommand{{decision(key_a(), {}, "herring")}, ""}},

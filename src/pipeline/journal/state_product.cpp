@@ -47,6 +47,17 @@ std::map<std::pair<std::int64_t, std::int64_t>, const Row*> by_school_and_ping(c
   return found;
 }
 
+/// What the tracker noted stays in its place, under the schools that have its voxels now.
+void follow_events(const ObservationProduct& measured, std::span<const SchoolMasks> schools,
+                   ObservationProduct& product) {
+  const auto is_event = [](const Diagnostic& note) { return note.code == DiagnosticCode::track_event; };
+  const auto at = std::ranges::find_if(product.diagnostics, is_event) - product.diagnostics.begin();
+  std::erase_if(product.diagnostics, is_event);
+  const auto placed = placed_events(noted_events(measured), detected_schools(measured));
+  const Diagnostics events = event_notes(events_now(placed, schools));
+  product.diagnostics.insert(product.diagnostics.begin() + at, events.begin(), events.end());
+}
+
 }  // namespace
 
 ObservationProduct state_product_of_results(const Engine& engine, const JournalState& state,
@@ -66,6 +77,7 @@ ObservationProduct state_product_of_results(const Engine& engine, const JournalS
   for (std::size_t i = 0; i < times.size(); ++i) product.pings[i].bad = product.pings[i].bad || is_bad(state, times[i]);
   std::vector<SchoolMasks> schools = numbered_as_shown(engine, state);
   std::ranges::sort(schools, {}, [](const SchoolMasks& school) { return school.decided.school_id; });
+  follow_events(measured, schools, product);
   for (const SchoolMasks& school : schools) {
     for (const SchoolMasks::InPing& in_ping : school.pings) {
       const std::pair key(school.track_id, in_ping.ping_index);
@@ -99,6 +111,8 @@ Result<ObservationProduct> state_product(Engine& engine, const JournalState& sta
   product.next_school_id = state.next_number;
   product.rejected = still_refused({options.refused.begin(), options.refused.end()}, state, engine.grid());
   std::vector<SchoolMasks> schools = numbered_as_shown(engine, state);
+  const Diagnostics events = event_notes(events_now(options.events, schools));
+  product.diagnostics.insert(product.diagnostics.end(), events.begin(), events.end());
   if (auto done = measure_schools(engine, std::move(schools), product, work, options.before); !done) {
     return pass_on(done);
   }

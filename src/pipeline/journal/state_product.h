@@ -11,6 +11,7 @@
 #include "pipeline/commands/state.h"
 #include "pipeline/stages/engine.h"
 #include "pipeline/stages/measure_schools.h"
+#include "pipeline/stages/placed_events.h"
 
 namespace sonar {
 
@@ -21,6 +22,7 @@ struct StateProductOptions {
   MeasuredPings* before = nullptr;  ///< of the same engine; null = everything is measured
   std::span<const RefusedEcho> refused =
       {};  ///< as detection told them: those that are no school in this state are kept
+  std::span<const PlacedEvent> events = {};  ///< as detection noted them: what they are in this state is noted
 };
 
 /// What a state's schools measure: a product that is known before it is a file. School numbers are the state's, so that what a

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
 #include <span>
 #include <utility>
 #include <variant>
@@ -20,6 +19,7 @@
 #include "pipeline/stages/engine.h"
 #include "pipeline/stages/measure_schools.h"
 #include "pipeline/stages/observe_memory.h"
+#include "pipeline/stages/placed_events.h"
 #include "pipeline/stages/refused_echoes.h"
 #include "pipeline/survey/beam_figures.h"
 #include "pipeline/tasks/join_tracks.h"
@@ -73,21 +73,6 @@ std::vector<SchoolMasks> masks_of(const Tracks& tracks, std::span<const Detected
     schools.push_back(std::move(school));
   }
   return schools;
-}
-
-/// Events name schools by the tracker's numbers; rows by those they got among all schools. What happened to a school that
-/// a human took away is no event any more.
-void note_events(const std::vector<TrackEvent>& events, const std::vector<SchoolMasks>& schools,
-                 ObservationProduct& product) {
-  std::map<std::int64_t, std::int64_t> number;
-  for (const SchoolMasks& school : schools) number[school.track_id] = school.decided.school_id;
-  number[0] = 0;
-  for (TrackEvent event : events) {
-    if (!number.contains(event.school_id) || !number.contains(event.other_id)) continue;
-    event.school_id = number[event.school_id];
-    event.other_id = number[event.other_id];
-    product.diagnostics.push_back({DiagnosticCode::track_event, "", -1, event.ping_index, to_text(event)});
-  }
 }
 
 /// A grid that is narrower than any school that is looked for shows none.
@@ -290,14 +275,16 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
   note_dead_reckoning(engine.reckoned(), product);
   if (auto done = prepare(engine, reach, product, work); !done) return pass_on(done);
   JournalState state;
-  Tracks tracks;
+  std::vector<PlacedEvent> events;
   if (automatic) {
     const std::vector<DetectedPing> detected = detect_pings(engine, reach, product, work);
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
     if (auto refused = engine.refusal(); !refused) return pass_on(refused);
-    tracks = tracked(engine, detected);
+    const Tracks tracks = tracked(engine, detected);
     product.rejected = refused_echoes(engine, detected, tracks);
-    state = state_of_detected(numbered(masks_of(tracks, detected), engine.grid()));
+    std::vector<SchoolMasks> found = numbered(masks_of(tracks, detected), engine.grid());
+    events = placed_events(tracks.events, found);
+    state = state_of_detected(std::move(found));
   }
   CommandContext context = context_of(engine, reach);
   context.earlier = options.earlier;
@@ -307,7 +294,8 @@ Result<ObservationProduct> observe(const SurveyFiles& survey, const ObservationF
   std::vector<SchoolMasks> schools = measured_masks_of(state, datagram_times(survey, observation));
   number(schools, engine, options, product);
   name_parts(schools, product.observation);
-  note_events(tracks.events, schools, product);
+  const Diagnostics noted = event_notes(events_now(events, schools));
+  product.diagnostics.insert(product.diagnostics.end(), noted.begin(), noted.end());
   if (state.calibration) {
     const Recipe measuring = measuring_recipe(recipe, state);
     Engine calibrated(survey, observation, measuring);

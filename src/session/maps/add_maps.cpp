@@ -12,6 +12,7 @@
 #include "session/maps/strip_model.h"
 #include "session/maps/survey_map_model.h"
 #include "session/timelines/echograms.h"
+#include "session/timelines/lineage_model.h"
 #include "session/timelines/timeline_actions.h"
 #include "session/timelines/timeline_model.h"
 
@@ -73,20 +74,23 @@ void add_maps(AppModel& app) {
   auto of_one = std::make_unique<TimelineModel>(workspace, echograms, TimelineOf::observation);
   auto of_all = std::make_unique<TimelineModel>(workspace, echograms, TimelineOf::survey);
   const std::array timelines{of_one.get(), of_all.get()};
+  auto lineage = std::make_unique<LineageModel>(workspace);
   auto echogram = std::make_unique<EchogramModel>(workspace, echograms);
-  app.actions.add({.id = "map.all",
-                   .menu = kMenu,
-                   .text = "Show whole maps, timelines and echograms",
-                   .keys = {"Shift+Home"},
-                   .tip = "Undo zooming and panning of maps, timelines and echograms",
-                   .run =
-                       [map = map.get(), survey = survey.get(), echogram = echogram.get(), timelines] {
-                         map->show_all();
-                         survey->show_all();
-                         for (TimelineModel* one : timelines) one->show_all();
-                         echogram->show_all();
-                       },
-                   .enabled = [&workspace] { return workspace.document.survey() != nullptr; }});
+  app.actions.add(
+      {.id = "map.all",
+       .menu = kMenu,
+       .text = "Show whole maps, timelines and echograms",
+       .keys = {"Shift+Home"},
+       .tip = "Undo zooming and panning of maps, timelines and echograms",
+       .run =
+           [map = map.get(), survey = survey.get(), echogram = echogram.get(), lineage = lineage.get(), timelines] {
+             map->show_all();
+             survey->show_all();
+             for (TimelineModel* one : timelines) one->show_all();
+             echogram->show_all();
+             lineage->show_all();
+           },
+       .enabled = [&workspace] { return workspace.document.survey() != nullptr; }});
   app.actions.add({.id = "strip.side",
                    .menu = kMenu,
                    .text = "Propagation strip from the side",
@@ -110,6 +114,7 @@ void add_maps(AppModel& app) {
   dock("survey_map", "Survey map", DockPlace::centre, "survey_map", std::move(survey));
   dock("observation_timeline", "Observation timeline", DockPlace::bottom, "timeline", std::move(of_one));
   dock("survey_timeline", "Survey timeline", DockPlace::bottom, "timeline", std::move(of_all));
+  dock("lineage", "Lineage", DockPlace::bottom, "lineage", std::move(lineage));
   dock("echogram", "Echogram", DockPlace::bottom, "echogram", std::move(echogram));
 }
 

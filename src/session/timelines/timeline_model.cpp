@@ -2,7 +2,6 @@
 #include "session/timelines/timeline_model.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "session/refused_layer.h"
@@ -18,18 +17,7 @@ void look_at_ping(Document& document, std::size_t observation, std::int64_t ping
   document.look_at(ping);
 }
 
-constexpr double kWheelStep = 1.25;           ///< of one notch
-constexpr TimeNs kShortest = 10 * kSecondNs;  ///< that fills a timeline: a few pings
-
 }  // namespace
-
-double TimelinePlaces::x_of(TimeNs time) const {
-  return plot.at(static_cast<double>(time - zero) / 1e9, plot.y.first).x;
-}
-
-TimeNs TimelinePlaces::time_at(double x_px) const {
-  return zero + static_cast<TimeNs>(std::llround(plot.x_at(x_px) * 1e9));
-}
 
 TimelineModel::TimelineModel(Workspace& workspace, std::shared_ptr<Echograms> echograms, TimelineOf of)
     : LivePicture(workspace),
@@ -60,8 +48,7 @@ void TimelineModel::hear(DocumentChange change) {
     case DocumentChange::survey:
       places_.reset();
       marking_from_.reset();
-      shown_.reset();
-      pan_.reset();
+      window_ = {};
       workspace_.marked_interval.set(std::nullopt);
       return update();
     case DocumentChange::observation:
@@ -86,8 +73,7 @@ void TimelineModel::observation_changed() {
   const auto identity = shown ? shown->identity() : nullptr;
   if (of_ == TimelineOf::observation && shown_of_.lock() != identity) {
     places_.reset();
-    shown_.reset();
-    pan_.reset();
+    window_ = {};
   }
   shown_of_ = identity;
   update();
@@ -132,7 +118,7 @@ LivePicture::Build TimelineModel::build(const PictureLook& look) {
   echograms_->want_all_beams(this, fill);
   wish.transects = workspace_.transects().periods;
   wish.sv = workspace_.timelines.values().scale(workspace_.display.values().scale);
-  wish.shown = shown_;
+  wish.shown = window_.shown();
   wish.look = look;
   return [painter = look.panel ? std::make_shared<TimelinePainter>() : painter_, wish = std::move(wish)](
              PixelSize size, const CancelToken&, const Show& show) -> Result<void> {
@@ -174,10 +160,6 @@ void TimelineModel::go_to(const SurveyPlace& there) {
 }
 
 void TimelineModel::press(const PointerEvent& event, const SurveyPlace& there) {
-  if (event.button == PointerButton::middle) {
-    pan_ = Pan{event.at.x, part()};
-    return;
-  }
   if (event.button != PointerButton::left) return;
   if (event.shift) {
     marking_from_ = there;
@@ -193,82 +175,31 @@ void TimelineModel::press(const PointerEvent& event, const SurveyPlace& there) {
 void TimelineModel::pointer(const PointerEvent& event) {
   const auto there = ping_at(event.at);
   if (!there) return;
-  switch (event.action) {
-    case PointerAction::press:
-      return press(event, *there);
-    case PointerAction::move:
-      if (event.button == PointerButton::middle) return pan_to(event.at.x);
-      if (event.button != PointerButton::left) {
-        scrubbing_ = false;
-        marking_from_.reset();
-        pan_.reset();
-        return;
-      }
-      if (marking_from_) return mark(*marking_from_, *there);
-      if (scrubbing_) go_to(*there);
-      return;
-    case PointerAction::release:
-      scrubbing_ = false;
-      marking_from_.reset();
-      pan_.reset();
-      return;
-    case PointerAction::wheel:
-      return zoom(event.at.x, std::pow(kWheelStep, event.wheel_steps));
-    case PointerAction::pan:
-      pan_ = Pan{0.0, part()};
-      pan_to(event.by.x);
-      return pan_.reset();
-    case PointerAction::zoom:
-      return zoom(event.at.x, event.factor);
-    case PointerAction::double_press:
-      return show_all();
-    case PointerAction::leave:
-      return;
+  if (const auto moved = window_.take(event, *places_)) {
+    if (*moved) update();
+    return;
   }
+  if (event.action == PointerAction::press) return press(event, *there);
+  if (event.action == PointerAction::leave) return;
+  if (event.action == PointerAction::release || event.button != PointerButton::left) {
+    scrubbing_ = false;
+    marking_from_.reset();
+    return;
+  }
+  if (marking_from_) return mark(*marking_from_, *there);
+  if (scrubbing_) go_to(*there);
 }
 
 void TimelineModel::show_all() {
-  pan_.reset();
-  if (!shown_) return;
-  shown_.reset();
-  update();
-}
-
-void TimelineModel::show_part(TimeNs first, TimeNs length) {
-  const TimelineInterval& all = places_->all;
-  if (length >= all.last - all.first) return show_all();
-  first = std::clamp(first, all.first, all.last - length);
-  const TimelineInterval to{first, first + length};
-  if (shown_ == to) return;
-  shown_ = to;
-  update();
-}
-
-void TimelineModel::zoom(double x_px, double factor) {
-  if (!places_) return;
-  const TimelineInterval now = part();
-  const auto length = static_cast<double>(now.last - now.first);
-  const double share = std::clamp((x_px - places_->plot.place.x) / places_->plot.place.width, 0.0, 1.0);
-  const double to = std::max(length / factor, static_cast<double>(kShortest));
-  if (to >= length && factor > 1.0) return;
-  show_part(now.first + static_cast<TimeNs>(share * (length - to)), static_cast<TimeNs>(to));
-}
-
-void TimelineModel::pan_to(double x_px) {
-  if (!pan_ || !places_ || !shown_) return;
-  const TimeNs length = pan_->part.last - pan_->part.first;
-  const double share = (pan_->x - x_px) / places_->plot.place.width;
-  show_part(pan_->part.first + static_cast<TimeNs>(share * static_cast<double>(length)), length);
+  if (window_.show_all()) update();
 }
 
 /// A ping that is looked at from elsewhere comes into sight.
 void TimelineModel::follow_ping() {
   const auto& shown = workspace_.document.shown();
-  if (!shown_ || !places_ || !shown) return;
-  const TimeNs time = shown->files().navigation[static_cast<std::size_t>(workspace_.document.ping())].time;
-  if (time >= shown_->first && time <= shown_->last) return;
-  const TimeNs length = shown_->last - shown_->first;
-  show_part(time - length / 2, length);
+  if (!places_ || !shown) return;
+  const auto ping = static_cast<std::size_t>(workspace_.document.ping());
+  if (window_.follow(shown->files().navigation[ping].time, *places_)) update();
 }
 
 bool TimelineModel::aim(PixelPoint at) {

@@ -10,21 +10,13 @@
 #include "session/listening.h"
 #include "session/live_picture.h"
 #include "session/timelines/echograms.h"
+#include "session/timelines/time_window.h"
 #include "session/workspace.h"
 #include "view/timelines/timeline.h"
 
 namespace sonar {
 
 class TimelinePainter;
-
-/// Where a timeline shows which time; x is seconds since `zero`.
-struct TimelinePlaces {
-  PlotFrame plot;
-  TimeNs zero = 0;
-  TimelineInterval all;  ///< what the whole time axis shows
-  [[nodiscard]] double x_of(TimeNs time) const;
-  [[nodiscard]] TimeNs time_at(double x_px) const;
-};
 
 /// A ping of the survey.
 struct SurveyPlace {
@@ -66,7 +58,7 @@ class TimelineModel : public LivePicture {
   [[nodiscard]] std::optional<EchoName> echo_at(PixelPoint at) const;
   /// All of the time axis again.
   void show_all();
-  [[nodiscard]] bool zoomed() const { return shown_.has_value(); }
+  [[nodiscard]] bool zoomed() const { return window_.shown().has_value(); }
 
  protected:
   [[nodiscard]] Build build(const PictureLook& look) override;
@@ -78,11 +70,7 @@ class TimelineModel : public LivePicture {
   void mark(const SurveyPlace& from, const SurveyPlace& to);
   void press(const PointerEvent& event, const SurveyPlace& there);
   void go_to(const SurveyPlace& there);
-  void zoom(double x_px, double factor);
-  void pan_to(double x_px);
-  void show_part(TimeNs first, TimeNs length);
   void follow_ping();
-  [[nodiscard]] TimelineInterval part() const { return shown_.value_or(places_->all); }
   [[nodiscard]] std::vector<std::size_t> observations() const;
 
   Workspace& workspace_;
@@ -90,13 +78,8 @@ class TimelineModel : public LivePicture {
   TimelineOf of_;
   std::optional<SurveyPlace> marking_from_;
   bool scrubbing_ = false;
-  struct Pan {
-    double x = 0.0;
-    TimelineInterval part;
-  };
-  std::optional<Pan> pan_;
-  std::optional<TimelineInterval> shown_;  ///< empty = all
-  std::weak_ptr<const int> shown_of_;      ///< identity of the observation on show
+  TimeWindow window_;
+  std::weak_ptr<const int> shown_of_;  ///< identity of the observation on show
   std::shared_ptr<TimelinePainter> painter_;
   std::shared_ptr<const TimelinePlaces> places_;
   Listening listening_;  // the last member: it ends first

@@ -88,30 +88,6 @@ void add_y_axis(FrameDescription& frame, const PlotFrame& plot, const Theme& the
   frame.items.emplace_back(std::move(label));
 }
 
-void add_x_axis(FrameDescription& frame, const PlotFrame& plot, TimelineAxis axis, TimeNs zero, const Theme& theme) {
-  const double em = theme.text_px;
-  const double bottom = plot.place.y + plot.place.height;
-  const auto tick = [&](double x, const std::string& text) {
-    const double px = plot.at(x, 0.0).x;
-    frame.items.emplace_back(line_item({px, bottom}, {px, bottom + 0.4 * em}, theme.axis, theme.line_px));
-    const double half = text_width_px(text.c_str(), em) / 2.0;
-    if (px - half < 0.0 || px + half > frame.size.width) return;
-    frame.items.emplace_back(text_item({px, bottom + 1.1 * em}, text, em, theme.text, TextAnchor::centre));
-  };
-  const int most = std::max(2, static_cast<int>(plot.place.width / (7.0 * em)));
-  if (axis == TimelineAxis::log) {
-    const Ticks ticks = nice_ticks(plot.x.first, plot.x.last, most);
-    for (const double v : ticks.major) tick(v, tick_text(v, ticks.decimals));
-  } else {
-    const auto time_of = [&](double s) { return zero + static_cast<TimeNs>(std::llround(s * 1e9)); };
-    for (const TimeTick& t : time_ticks(time_of(plot.x.first), time_of(plot.x.last), most)) {
-      tick(static_cast<double>(t.time - zero) / 1e9, t.text);
-    }
-  }
-  frame.items.emplace_back(text_item({plot.place.x + plot.place.width / 2.0, bottom + 2.5 * em}, plot.x.label, em,
-                                     theme.muted, TextAnchor::centre));
-}
-
 double reach_m(std::span<const Strip> strips) {
   double reach = 0.0;
   for (const Strip& s : strips) {
@@ -153,6 +129,30 @@ const char* value_label(EchogramValue value, bool brief, bool of_one) {
 }
 
 }  // namespace
+
+void add_x_axis(FrameDescription& frame, const PlotFrame& plot, TimelineAxis axis, TimeNs zero, const Theme& theme) {
+  const double em = theme.text_px;
+  const double bottom = plot.place.y + plot.place.height;
+  const auto tick = [&](double x, const std::string& text) {
+    const double px = plot.at(x, 0.0).x;
+    frame.items.emplace_back(line_item({px, bottom}, {px, bottom + 0.4 * em}, theme.axis, theme.line_px));
+    const double half = text_width_px(text.c_str(), em) / 2.0;
+    if (px - half < 0.0 || px + half > frame.size.width) return;
+    frame.items.emplace_back(text_item({px, bottom + 1.1 * em}, text, em, theme.text, TextAnchor::centre));
+  };
+  const int most = std::max(2, static_cast<int>(plot.place.width / (7.0 * em)));
+  if (axis == TimelineAxis::log) {
+    const Ticks ticks = nice_ticks(plot.x.first, plot.x.last, most);
+    for (const double v : ticks.major) tick(v, tick_text(v, ticks.decimals));
+  } else {
+    const auto time_of = [&](double s) { return zero + static_cast<TimeNs>(std::llround(s * 1e9)); };
+    for (const TimeTick& t : time_ticks(time_of(plot.x.first), time_of(plot.x.last), most)) {
+      tick(static_cast<double>(t.time - zero) / 1e9, t.text);
+    }
+  }
+  frame.items.emplace_back(text_item({plot.place.x + plot.place.width / 2.0, bottom + 2.5 * em}, plot.x.label, em,
+                                     theme.muted, TextAnchor::centre));
+}
 
 TimelineHeights heights_of(const EchogramRange& range) {
   return {std::max(0.0, range.first_m), range.first_m + range.bins * range.bin_m};

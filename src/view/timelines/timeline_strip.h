@@ -47,6 +47,8 @@ struct Strip {
   }
 };
 
+/// Ticks and label below a plot whose x is seconds since `zero`, or the log.
+void add_x_axis(FrameDescription& frame, const PlotFrame& plot, TimelineAxis axis, TimeNs zero, const Theme& theme);
 /// Bad pings, shaded and hatched.
 void add_bad(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const Theme& theme);
 /// Stripes over a rectangle, rising (slope -1) or falling (1) to the right.
