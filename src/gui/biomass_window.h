@@ -16,6 +16,7 @@ class BiomassWindow : public PageWindow {
  public:
   /// The app outlives the window.
   explicit BiomassWindow(AppModel& app);
+  ~BiomassWindow() override { end_results(); }
 
  protected:
   void showEvent(QShowEvent* event) override;

@@ -16,6 +16,7 @@ class IntegrationWindow : public PageWindow {
  public:
   /// The app outlives the window.
   explicit IntegrationWindow(AppModel& app);
+  ~IntegrationWindow() override { end_results(); }
 
  private:
   void add_choices();

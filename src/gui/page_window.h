@@ -8,6 +8,7 @@
 #include <QWidget>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "base/result.h"
 #include "session/app_model.h"
@@ -34,6 +35,8 @@ class PageWindow : public QWidget {
   void add_rows(Rows& rows, const char* name, const char* title);
   /// After all choices.
   void end_choices();
+  /// The results go before the pictures that they show: for the end of a window that owns some.
+  void end_results() { delete std::exchange(results_, nullptr); }
   /// A line below the results; empty = none.
   void tell(const std::string& line);
   void tell(const Result<void>& done) { tell(done ? std::string() : to_line(done.error())); }

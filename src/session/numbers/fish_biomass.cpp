@@ -158,7 +158,7 @@ Result<FishChoice> FishBiomass::chosen_fish() const {
   } else {
     fish.lengths = normal_lengths(of.mean_length_cm, of.sd_length_cm);
   }
-  fish.weight = {of.weight_a_g > 0.0 ? of.weight_a_g : kUnknown, of.weight_b};
+  fish.weight = {of.weight_a_g > kNoWeight_g ? of.weight_a_g : kUnknown, of.weight_b};
   fish.species = of.species;
   return fish;
 }

@@ -17,13 +17,16 @@ inline constexpr std::array<std::string_view, 2> kLengthsFromNames{"mean_and_sd"
 enum class AspectModel : std::uint8_t { of_relation, none, own };
 inline constexpr std::array<std::string_view, 3> kAspectModelNames{"of_relation", "none", "own"};
 
+/// No fish weighs so little: weights are not told.
+inline constexpr double kNoWeight_g = 1e-5;
+
 /// What the fish of a survey are taken to be.
 struct FishParams {
   std::string relation = "herring-side";
   LengthsFrom lengths = LengthsFrom::mean_and_sd;
   double mean_length_cm = 28.0;
   double sd_length_cm = 3.0;
-  double weight_a_g = 0.0;
+  double weight_a_g = kNoWeight_g;
   double weight_b = 3.0;
   std::string species;
   AspectModel aspect = AspectModel::of_relation;
@@ -42,8 +45,9 @@ void describe(Visitor& v, FishParams& p) {
           {.unit = "cm", .min = 0.5, .max = 500, .text = "Mean length of the fish, cm."});
   v.field("sd_length_cm", p.sd_length_cm,
           {.unit = "cm", .min = 0, .max = 100, .text = "Standard deviation of the lengths, cm."});
-  v.field("weight_a_g", p.weight_a_g,
-          {.unit = "g", .min = 0, .max = 1, .text = "a of W = a L^b, in grams of cm; 0 = no biomass."});
+  v.field(
+      "weight_a_g", p.weight_a_g,
+      {.unit = "g", .min = kNoWeight_g, .max = 1, .text = "a of W = a L^b, in grams of cm; at its least, no biomass."});
   v.field("weight_b", p.weight_b, {.unit = "1", .min = 0.1, .max = 10, .text = "b of W = a L^b."});
   v.field("species", p.species, {.text = "Only schools with this word as their species; empty counts all."});
   v.choice("aspect", p.aspect, kAspectModelNames,
