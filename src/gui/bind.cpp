@@ -99,9 +99,12 @@ QWidget* bind_int(const Source& source, const Property& property, QWidget* paren
 
 /// Digits behind the point that tell a range's values apart.
 int decimals_of(const Property& property) {
+  // A least value that is not zero can be typed.
+  const bool small = property.min > 0.0 && property.min < 0.1;
+  const int of_least = small ? static_cast<int>(std::ceil(-std::log10(property.min) - 1e-9)) : 0;
   const double range = property.max - property.min;
-  if (!std::isfinite(range) || range > 20.0) return 1;
-  return range > 2.0 ? 2 : 3;
+  if (!std::isfinite(range) || range > 20.0) return std::max(1, of_least);
+  return std::max(range > 2.0 ? 2 : 3, of_least);
 }
 
 QWidget* bind_double(const Source& source, const Property& property, QWidget* parent) {

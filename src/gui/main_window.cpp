@@ -17,11 +17,13 @@
 #include "gui/action_menus.h"
 #include "gui/animation_timer.h"
 #include "gui/batch_window.h"
+#include "gui/biomass_window.h"
 #include "gui/control_panel_view.h"
 #include "gui/default_layout.h"
 #include "gui/dock_tabs.h"
 #include "gui/dropped_paths.h"
 #include "gui/figure_dialog.h"
+#include "gui/integration_window.h"
 #include "gui/key_sheet.h"
 #include "gui/listening_of.h"
 #include "gui/palette.h"
@@ -180,6 +182,14 @@ void MainWindow::answer() {
     if (!batch_) batch_ = std::make_unique<BatchWindow>(app_, *this);
     batch_->come_to_front();
   };
+  app_.dialogs.show_integration = [this] {
+    if (!integration_) integration_ = std::make_unique<IntegrationWindow>(app_);
+    integration_->come_to_front();
+  };
+  app_.dialogs.show_biomass = [this] {
+    if (!biomass_) biomass_ = std::make_unique<BiomassWindow>(app_);
+    biomass_->come_to_front();
+  };
   app_.dialogs.figure = [this](FigureModel& figure) { compose_figure(*this, app_, figure); };
   app_.dialogs.show_keys = [this] { show_key_sheet(*this, app_.actions); };
   app_.dialogs.show_about = [this] { QMessageBox::about(this, "Sonar Explorer", about_text(app_)); };
@@ -222,6 +232,8 @@ void MainWindow::take_layout(const std::string& layout) {
 void MainWindow::closeEvent(QCloseEvent* event) {
   if (!batch_may_end(app_)) return event->ignore();
   if (batch_) batch_->close();
+  if (integration_) integration_->close();
+  if (biomass_) biomass_->close();
   app_.preferences.window_layout = layout();
   keep_preferences(app_);
   QMainWindow::closeEvent(event);

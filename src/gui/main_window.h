@@ -14,6 +14,8 @@
 namespace sonar {
 
 class BatchWindow;
+class BiomassWindow;
+class IntegrationWindow;
 
 /// Of a window at its first start: nine tenths of what the screen has to give, within 1280 x 800 and 3840 x 2160, and no more
 /// than there is.
@@ -45,7 +47,9 @@ class MainWindow : public QMainWindow {
   AppModel& app_;
   AnimationTimer animations_;
   std::unique_ptr<BatchWindow> batch_;  ///< null until it is asked for
-  Listening listening_;                 // the last member: it ends first
+  std::unique_ptr<IntegrationWindow> integration_;
+  std::unique_ptr<BiomassWindow> biomass_;
+  Listening listening_;  // the last member: it ends first
 };
 
 }  // namespace sonar

@@ -97,6 +97,8 @@ struct Dialogs {
   std::function<void(const std::string& title, Rows& rows)> rows;  ///< shows a table to look at
   std::function<void(const std::string& text)> copy;
   std::function<void()> show_batch;                                  ///< the window of surveys to be run
+  std::function<void()> show_integration;                            ///< the page of echo integration
+  std::function<void()> show_biomass;                                ///< the page of numbers and biomass
   std::function<void()> show_keys;                                   ///< the sheet of keys
   std::function<bool(const std::filesystem::path& page)> show_page;  ///< outside the program; false = nothing shows it
   std::function<void()> show_about;

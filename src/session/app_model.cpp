@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "session/app_parts.h"
+#include "session/numbers/fish_biomass.h"
 #include "session/recent_surveys.h"
 
 namespace sonar {
@@ -34,6 +35,7 @@ AppModel::AppModel(ChangeQueue& queue, DocumentOptions options)
   add_noise_steps(*this);
   add_lists(*this);
   add_school_acts(*this);
+  add_numbers(*this);
   add_exports(*this);
   add_window_preferences(*this);
   add_window_acts(*this);

@@ -20,6 +20,8 @@ namespace sonar {
 class Batch;
 class BrushTool;
 class FirstSight;
+class FishBiomass;
+class Integration;
 class KeptThumbnails;
 class LiveWatch;
 class MeasureTool;
@@ -73,6 +75,8 @@ class AppModel {
   std::shared_ptr<LiveWatch> live;
   std::shared_ptr<MergeOffer> merge_offer;
   std::shared_ptr<Batch> batch;
+  std::shared_ptr<Integration> integration;
+  std::shared_ptr<FishBiomass> fish;
   std::vector<PictureDock> pictures;
   std::vector<RowsDock> lists;
   std::shared_ptr<KeptThumbnails> thumbnails;

@@ -23,6 +23,7 @@ void add_lists(AppModel& app);               ///< survey tree, tables of schools
 void add_school_acts(AppModel& app);         ///< what is done to the selected school
 void add_window_acts(AppModel& app);         ///< views on and off, light and dark, help
 void add_window_preferences(AppModel& app);  ///< theme, playback, memory, keys
+void add_numbers(AppModel& app);             ///< echo integration, numbers and biomass of fish
 void add_exports(AppModel& app);             ///< opening; files, pictures and movies out of the program
 void add_batch(AppModel& app);               ///< whole surveys run behind the window
 
@@ -49,6 +50,9 @@ Result<void> start_batch(AppModel& app);
 void open_run_survey(AppModel& app, std::size_t at);
 /// Asks whether surveys that run are to be stopped, and stops them; false = the human declined.
 [[nodiscard]] bool batch_may_end(AppModel& app);
+
+/// The chart of schools shows Sv over the incidence angle in each ping.
+void show_incidence_chart(Workspace& workspace);
 
 /// Asks for a folder to write into, and proposes one beside the survey; empty = the human declined.
 /// ending  of its name: "-out"

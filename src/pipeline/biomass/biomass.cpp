@@ -78,29 +78,13 @@ Result<Integration> integration_in(const fs::path& out) {
   return tables;
 }
 
-Result<std::map<std::string, double>> areas_for(const BiomassOptions& options, const Integration& tables) {
-  if (options.areas.empty()) return std::map<std::string, double>{};
-  auto areas = read_stratum_areas(options.areas);
-  if (!areas) return areas;
-  for (const auto& [stratum, area] : *areas) {
-    const bool known = std::any_of(tables.strata.begin(), tables.strata.end(), [&](const StratumRow& row) {
-      return row.level == "stratum" && row.stratum == stratum;
-    });
-    if (known) continue;
-    return fail(ErrorCode::mismatch,
-                fmt::format("stratum '{}' is none of those in {}; sonarx integrate --transects writes it",
-                            stratum.substr(0, 40), (options.out / "strata.csv").string()),
-                {options.areas.string()});
-  }
-  return areas;
-}
-
 void take_schools(std::vector<NumberedSchool>&& schools, Biomass& out) {
   for (NumberedSchool& school : schools) {
     if (!school.counted) continue;
     if (std::isnan(school.row.numbers)) ++out.without_numbers;
     if (school.row.n_pings > 0 && school.row.n_pings_whole == 0) ++out.cut;
     if (std::isnan(school.row.aspect_deg)) ++out.without_course;
+    out.school_causes.push_back(band_causes({&school, 1}));
     out.schools.push_back(std::move(school.row));
     out.pings.insert(out.pings.end(), school.pings.begin(), school.pings.end());
   }
@@ -108,30 +92,65 @@ void take_schools(std::vector<NumberedSchool>&& schools, Biomass& out) {
 
 }  // namespace
 
+Result<void> require_strata(const std::map<std::string, double>& areas, std::span<const StratumRow> strata,
+                            const fs::path& areas_file) {
+  for (const auto& [stratum, area] : areas) {
+    const bool known = std::any_of(strata.begin(), strata.end(), [&](const StratumRow& row) {
+      return row.level == "stratum" && row.stratum == stratum;
+    });
+    if (known) continue;
+    return fail(ErrorCode::mismatch,
+                fmt::format("stratum '{}' is none of those that were integrated; sonarx integrate --transects writes "
+                            "them into strata.csv",
+                            stratum.substr(0, 40)),
+                {areas_file.string()});
+  }
+  return {};
+}
+
+Result<Biomass> biomass_of(std::span<const ObservationProduct> products, FishChoice fish, const StrataInput& strata) {
+  Biomass done;
+  done.sonar = frequencies_of(products);
+  done.fish = std::move(fish);
+  done.integrated = !strata.strata.empty();
+  std::vector<NumberedSchool> schools = school_numbers(products, done.fish);
+  done.strata = biomass_strata(schools, done.fish, strata);
+  done.causes = band_causes(schools);
+  take_schools(std::move(schools), done);
+  if (!done.fish.species.empty() && done.schools.empty()) {
+    return fail(ErrorCode::mismatch, fmt::format("no school of the species '{}'", done.fish.species));
+  }
+  return done;
+}
+
+Result<void> write_biomass(const Biomass& biomass, const fs::path& folder) {
+  auto written = write_csv_rows(folder / "biomass.csv", biomass.schools);
+  if (written) written = write_csv_rows(folder / "biomass_pings.csv", biomass.pings);
+  if (written) written = write_csv_rows(folder / "biomass_strata.csv", biomass.strata);
+  return written;
+}
+
 Result<Biomass> biomass_folder(const BiomassOptions& options, Work& work) {
   const auto survey = survey_in(options.out, work);
   if (!survey) return pass_on(survey);
-  Biomass done;
-  done.sonar = frequencies_of(survey->observations);
-  auto fish = fish_of(options, done.sonar);
+  auto fish = fish_of(options, frequencies_of(survey->observations));
   if (!fish) return pass_on(fish);
-  done.fish = std::move(*fish);
   const auto tables = integration_in(options.out);
   if (!tables) return pass_on(tables);
-  auto areas = areas_for(options, *tables);
-  if (!areas) return pass_on(areas);
-  std::vector<NumberedSchool> schools = school_numbers(survey->observations, done.fish);
-  done.integrated = !tables->strata.empty();
-  done.strata = biomass_strata(schools, done.fish, {tables->effort, tables->strata, std::move(*areas)});
-  take_schools(std::move(schools), done);
-  if (!options.species.empty() && done.schools.empty()) {
-    return fail(ErrorCode::mismatch, fmt::format("has no school of the species '{}'", options.species),
-                {options.out.string()});
+  std::map<std::string, double> areas;
+  if (!options.areas.empty()) {
+    auto told = read_stratum_areas(options.areas);
+    if (!told) return pass_on(told);
+    areas = std::move(*told);
+    if (auto there = require_strata(areas, tables->strata, options.areas); !there) return pass_on(there);
   }
-  auto written = write_csv_rows(options.out / "biomass.csv", done.schools);
-  if (written) written = write_csv_rows(options.out / "biomass_pings.csv", done.pings);
-  if (written) written = write_csv_rows(options.out / "biomass_strata.csv", done.strata);
-  if (!written) return pass_on(written);
+  auto done = biomass_of(survey->observations, std::move(*fish), {tables->effort, tables->strata, std::move(areas)});
+  if (!done) {
+    Error error = done.error();
+    if (error.where.file.empty()) error.where.file = options.out.string();
+    return tl::unexpected(std::move(error));
+  }
+  if (auto written = write_biomass(*done, options.out); !written) return pass_on(written);
   return done;
 }
 

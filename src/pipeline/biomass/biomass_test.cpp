@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/units.h"
+#include "pipeline/biomass/band_causes.h"
 #include "pipeline/biomass/biomass_strata.h"
 #include "pipeline/biomass/length_table.h"
 #include "pipeline/biomass/school_numbers.h"
@@ -260,6 +261,48 @@ TEST(SchoolNumbers, span_the_choices) {
   EXPECT_LT(row.numbers_low, row.numbers / std::pow(10.0, 0.3));
   EXPECT_GT(row.numbers_high, row.numbers * std::pow(10.0, 0.4));
   EXPECT_EQ(row.band, "fading calibration lengths aspect ts");
+}
+
+// Relations 3 dB louder and 4 dB fainter: so many fish fewer and more. By hand for two schools: fading 3 % each, 2.1 % of
+// both; 95 % of that is 1.96 * 0.0212 * 4.343 dB.
+TEST(BandCauses, tell_what_each_adds_alone) {
+  const ObservationProduct product = passing_school(0.0);
+  FishChoice fish = line_fish();
+  fish.choices = {fish.chosen, fish.chosen};
+  fish.choices[0].b_db += 3.0;
+  fish.choices[1].b_db -= 4.0;
+  auto schools = school_numbers({&product, 1}, fish);
+  schools.push_back(schools[0]);
+  for (NumberedSchool& school : schools) school.errors = {0.03, 0.04, kUnknown};
+  const BandCauses causes = band_causes(schools);
+  EXPECT_NEAR(causes.relation.down_db, -3.0, 1e-9);
+  EXPECT_NEAR(causes.relation.up_db, 4.0, 1e-9);
+  ASSERT_EQ(causes.by_choice_db.size(), 2U);
+  EXPECT_NEAR(causes.by_choice_db[0], -3.0, 1e-9);
+  EXPECT_NEAR(causes.fading.up_db, 1.959964 * 0.03 / std::numbers::sqrt2 * 10.0 / std::numbers::ln10, 1e-6);
+  EXPECT_NEAR(causes.calibration.down_db, -1.959964 * 0.04 * 10.0 / std::numbers::ln10, 1e-6);
+  EXPECT_TRUE(std::isnan(causes.lengths.up_db));
+  EXPECT_NEAR(causes.course.up_db, 0.0, 1e-9) << "the course is known";
+  schools[0].counted = schools[1].counted = false;
+  EXPECT_TRUE(std::isnan(band_causes(schools).relation.up_db));
+}
+
+// E(L^2) = mean^2 + sd^2: what a relation of 20 log10 L asks of the lengths.
+TEST(FishLengths, of_a_normal_distribution_have_its_mean_and_deviation) {
+  const FishLengths lengths = normal_lengths(28.0, 3.0);
+  double share = 0.0;
+  double mean = 0.0;
+  double square = 0.0;
+  for (const LengthClass& of : lengths.classes) {
+    share += of.share;
+    mean += of.share * of.length_cm;
+    square += of.share * of.length_cm * of.length_cm;
+  }
+  EXPECT_NEAR(share, 1.0, 1e-12);
+  EXPECT_NEAR(mean, 28.0, 1e-9);
+  EXPECT_NEAR(square, 28.0 * 28.0 + 9.0, 0.02);
+  EXPECT_EQ(normal_lengths(28.0, 0.0).classes.size(), 1U);
+  for (const LengthClass& of : normal_lengths(2.0, 3.0).classes) EXPECT_GT(of.length_cm, 0.0);
 }
 
 TEST(SchoolNumbers, take_only_the_pings_that_tell_backscatter) {

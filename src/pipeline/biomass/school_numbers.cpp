@@ -217,6 +217,13 @@ class SchoolCounter {
     const double numbers = sums.echo_m2 / sums.sigma_m2.front();
     out.strongest = sums.echo_m2 / *most;
     out.weakest = sums.echo_m2 / *least;
+    const auto courses = sums.sigma_m2.begin() + 1 + std::ssize(fish_.choices);
+    for (auto sigma = sums.sigma_m2.begin() + 1; sigma != courses; ++sigma) {
+      out.by_choice.push_back(sums.echo_m2 / *sigma);
+    }
+    const auto [faint, loud] = std::minmax_element(courses, sums.sigma_m2.end());
+    out.fewest_by_course = std::min(numbers, sums.echo_m2 / *loud);
+    out.most_by_course = std::max(numbers, sums.echo_m2 / *faint);
     if (sums.echo_told_m2 > 0.0) out.errors.own = std::sqrt(sums.variance_m4) / sums.echo_told_m2;
     out.errors.calibration = relative_of_db(school.rows.front()->backscatter_calibration_se_db);
     const SamplingErrors of_lengths = sampling_errors(fish_.lengths, fish_.chosen, fish_.weight);

@@ -36,9 +36,12 @@ struct NumberedSchool {
   std::vector<BiomassPingRow> pings;
   TimeNs middle_utc = 0;  ///< of its middle ping
   NumberErrors errors;
-  double strongest = kUnknown;  ///< numbers with the strongest of the choices, the least
-  double weakest = kUnknown;    ///< ... and with the weakest
-  bool counted = false;         ///< of the species asked for
+  double strongest = kUnknown;         ///< numbers with the strongest of the choices, the least
+  double weakest = kUnknown;           ///< ... and with the weakest
+  std::vector<double> by_choice;       ///< numbers with each of FishChoice::choices
+  double fewest_by_course = kUnknown;  ///< with the chosen relation, at the courses that the school's may be
+  double most_by_course = kUnknown;
+  bool counted = false;  ///< of the species asked for
 };
 
 /// Numbers of fish in schools: echo over the mean cross-section of a fish, both summed over the pings that tell the school's

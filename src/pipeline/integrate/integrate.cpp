@@ -213,6 +213,13 @@ Result<Integrated> integrate_survey(const SurveyFiles& survey, const Recipe& rec
   return out;
 }
 
+Result<void> write_integration(const IntegrationTables& tables, const fs::path& folder) {
+  auto written = write_csv_rows(folder / "effort.csv", tables.effort);
+  if (written) written = write_csv_rows(folder / "nasc.csv", tables.nasc);
+  if (written) written = write_csv_rows(folder / "strata.csv", tables.strata);
+  return written;
+}
+
 Result<Integrated> integrate_folder(const IntegrateOptions& options, Work& work) {
   std::vector<Transect> transects;
   if (!options.transects.empty()) {
@@ -228,10 +235,7 @@ Result<Integrated> integrate_folder(const IntegrateOptions& options, Work& work)
   if (auto outside = require_outside_raw(*survey, options.out); !outside) return pass_on(outside);
   auto done = integrate_survey(*survey, *recipe, products_in(options.out), transects, options.params, work);
   if (!done) return pass_on(done);
-  auto written = write_csv_rows(options.out / "effort.csv", done->tables.effort);
-  if (written) written = write_csv_rows(options.out / "nasc.csv", done->tables.nasc);
-  if (written) written = write_csv_rows(options.out / "strata.csv", done->tables.strata);
-  if (!written) return pass_on(written);
+  if (auto written = write_integration(done->tables, options.out); !written) return pass_on(written);
   return done;
 }
 

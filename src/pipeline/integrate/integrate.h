@@ -42,6 +42,10 @@ struct Integrated {
                                                   const ProductOf& product_of, std::span<const Transect> transects,
                                                   const IntegrateParams& params, Work& work);
 
+/// effort.csv, nasc.csv and strata.csv into a folder that is there.
+/// errors  io, no_space
+[[nodiscard]] Result<void> write_integration(const IntegrationTables& tables, const std::filesystem::path& folder);
+
 struct IntegrateOptions {
   std::vector<std::filesystem::path> survey;  ///< folders of raw files, or raw files
   std::filesystem::path out;                  ///< work folder, of a run where schools are wanted

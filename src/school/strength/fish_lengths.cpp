@@ -5,6 +5,26 @@
 
 namespace sonar {
 
+FishLengths normal_lengths(double mean_cm, double sd_cm) {
+  constexpr int kClasses = 20;  // to each side
+  constexpr double kClass_sd = 0.2;
+  FishLengths lengths;
+  if (!(sd_cm > 0.0)) {
+    lengths.classes.push_back({mean_cm, 1.0});
+    return lengths;
+  }
+  double sum = 0.0;
+  for (int i = -kClasses; i <= kClasses; ++i) {
+    const double off_sd = kClass_sd * i;
+    const double length_cm = mean_cm + off_sd * sd_cm;
+    if (!(length_cm > 0.0)) continue;
+    lengths.classes.push_back({length_cm, std::exp(-0.5 * off_sd * off_sd)});
+    sum += lengths.classes.back().share;
+  }
+  for (LengthClass& of : lengths.classes) of.share /= sum;
+  return lengths;
+}
+
 double WeightLength::weight_g(double length_cm) const { return a_g * std::pow(length_cm, b); }
 
 double mean_weight_g(const FishLengths& lengths, const WeightLength& weight) {

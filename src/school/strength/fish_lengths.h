@@ -19,6 +19,12 @@ struct FishLengths {
   double measured = kUnknown;        ///< how many fish were measured; unknown where only shares are told
 };
 
+/// Lengths of a normal distribution, in classes a fifth of its deviation wide up to four deviations from its mean; lengths
+/// that no fish has are left out. How many were measured is unknown.
+/// mean_cm  > 0
+/// sd_cm    0 = all are alike
+[[nodiscard]] FishLengths normal_lengths(double mean_cm, double sd_cm);
+
 /// W = a L^b, in grams of cm.
 struct WeightLength {
   double a_g = kUnknown;

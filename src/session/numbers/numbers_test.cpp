@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "session/numbers/fish_biomass.h"
+#include "session/numbers/integration.h"
+#include "session/test_app.h"
+#include "session/test_run.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Numbers : public testing::Test, protected TestApp {
+ protected:
+  Numbers() { begin(); }
+  [[nodiscard]] Integration& integration() { return *app_->integration; }
+  [[nodiscard]] FishBiomass& fish() { return *app_->fish; }
+  void integrate() {
+    IntegrateParams params;
+    params.edsu_nmi = 0.01;
+    integration().params.assign(params);
+    const auto started = integration().start();
+    ASSERT_TRUE(started) << to_line(started.error());
+    integration().settle();
+    ASSERT_TRUE(integration().result()) << integration().told();
+  }
+  static std::string bytes(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+};
+
+// The command line's way, over products on disk, is the independent answer: the same tables.
+TEST_F(Numbers, IntegrationIsThatOfARunOfTheSameSchools) {
+  document().open_all();
+  document().detect({0, 1});
+  document().settle();
+  integrate();
+  const fs::path here = TestSurvey::easy().fresh();
+  ASSERT_TRUE(integration().write(here));
+  const fs::path run = TestSurvey::easy().fresh();
+  ASSERT_TRUE(run_easy(run));
+  IntegrateOptions options;
+  options.survey = {TestSurvey::easy().folder()};
+  options.out = run;
+  options.params = integration().params.values();
+  Work work;
+  const auto expected = integrate_folder(options, work);
+  ASSERT_TRUE(expected) << to_line(expected.error());
+  for (const char* table : {"effort.csv", "nasc.csv", "strata.csv"}) {
+    EXPECT_EQ(bytes(here / table), bytes(run / table)) << table;
+  }
+  EXPECT_FALSE(integration().write(TestSurvey::easy().folder())) << "raw files lie there";
+  ASSERT_GT(integration().effort_rows.rows(), 1U);
+  integration().go_to(integration().effort_rows.rows() - 1, 1.0);
+  document().settle();
+  EXPECT_EQ(document().shown()->index(), 1U);
+  EXPECT_EQ(document().ping(), TestSurvey::kPings - 1);
+}
+
+TEST_F(Numbers, WhatIsStoppedLeavesWhatWasThere) {
+  integrate();
+  const auto before = integration().result();
+  ASSERT_TRUE(integration().start());
+  EXPECT_FALSE(integration().start()) << "it runs already";
+  integration().stop();
+  integration().settle();
+  EXPECT_EQ(integration().result(), before);
+  EXPECT_EQ(integration().told(), "stopped");
+  document().open({TestSurvey::easy().folder()});
+  integration().settle();
+  EXPECT_EQ(integration().result(), nullptr) << "it was of the survey before";
+}
+
+// Fish 10 dB louder are a tenth as many.
+TEST_F(Numbers, FishFollowEachChoice) {
+  document().detect({0, 1});
+  document().settle();
+  fish().begin();
+  FishParams params;
+  params.relation = "cod";
+  params.sd_length_cm = 0.0;
+  params.mean_length_cm = 20.0;
+  fish().params.assign(params);
+  fish().settle();
+  ASSERT_TRUE(fish().result()) << fish().told();
+  const double few_cm = fish().result()->strata.back().numbers_seen;
+  EXPECT_GT(few_cm, 0.0);
+  EXPECT_TRUE(std::isnan(fish().result()->strata.back().biomass_seen_t));
+  params.mean_length_cm = 20.0 * std::sqrt(10.0);
+  params.weight_a_g = 0.01;
+  fish().params.assign(params);
+  fish().settle();
+  EXPECT_NEAR(fish().result()->strata.back().numbers_seen / few_cm, 0.1, 1e-9);
+  EXPECT_GT(fish().result()->strata.back().biomass_seen_t, 0.0);
+  EXPECT_THAT(fish().told(), HasSubstr("strata follow"));
+  EXPECT_THAT(fish().relation_text(), HasSubstr("StoX project coastalCod"));
+  // Mackerel, 22.3 dB fainter at the same length, among what could be meant.
+  fish().set_spans("mackerel", true);
+  fish().settle();
+  EXPECT_NEAR(fish().causes().second.relation.up_db, 22.3, 1e-6);
+  integrate();
+  fish().settle();
+  EXPECT_TRUE(fish().result()->integrated);
+  params.lengths = LengthsFrom::table;
+  fish().params.assign(params);
+  fish().settle();
+  EXPECT_EQ(fish().result(), nullptr);
+  EXPECT_THAT(fish().told(), HasSubstr("open a table of lengths"));
+}
+
+TEST_F(Numbers, TheChartOfSchoolsShowsSvOverIncidence) {
+  show_incidence_chart(workspace());
+  const auto x = workspace().picture_file.value("chart.x");
+  const auto y = workspace().picture_file.value("chart.y");
+  const auto table = workspace().picture_file.value("chart.table");
+  ASSERT_TRUE(x && y && table);
+  EXPECT_EQ(workspace().picture_file.values().kind.chart.table, ChartTable::school_pings);
+}
+
+}  // namespace
+}  // namespace sonar
