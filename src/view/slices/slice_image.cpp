@@ -96,6 +96,7 @@ Result<Image> slice_image(const SliceMap& map, const SliceData& data, const SvCo
   } else {
     colour_samples(image, map, data, table);
   }
+  if (!masks.shown) return image;
   if (auto ok = blend_masks(image, map, data.masks, masks, theme); !ok) return pass_on(ok);
   return image;
 }
