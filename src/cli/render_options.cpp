@@ -83,7 +83,8 @@ void add_common(CLI::App& verb, RenderArguments& a) {
       "survey-map report");
   suits(verb.add_option("--against", a.against,
                         "Another reader's work folder of the same raw files: show which voxels are in both, which only "
-                        "in PATH (A) and which only there (B); --ping default: where they differ most")
+                        "in PATH (A) and which only there (B); --ping default: where they differ most, else that of "
+                        "the strongest school")
             ->check(named_path("FOLDER")),
         "slice- volume");
   suits(verb.add_flag("--quick", a.quick, "From the first and last bytes of each raw file alone"), "survey-map");

@@ -64,7 +64,6 @@ std::shared_ptr<const T> borrowed(const T& owned) {
 
 std::vector<DrawnSchoolKey> school_keys(const DrawnPing& ping, const PictureOptions& options) {
   std::vector<DrawnSchoolKey> keys;
-  if (!options.display.masks) return keys;
   for (const DrawnMask& drawn : ping.masks) {
     if (!wanted(drawn.school_id, drawn.status, options)) continue;
     const char* comma = drawn.status.empty() ? "" : ", ";

@@ -33,7 +33,7 @@ struct DrawnSchoolKey {
   std::string status;
   std::string name;
 };
-/// Of the masks that the options ask for, in their order.
+/// Of the masks that the options choose, in their order, whether schools are shown or not.
 [[nodiscard]] std::vector<DrawnSchoolKey> school_keys(const DrawnPing& ping, const PictureOptions& options);
 
 /// The schools that the options ask for through all their pings, for tracks and trails; none where schools are not shown.

@@ -148,7 +148,6 @@ Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observa
   if (!sector) return pass_on(sector);
   const auto ping = drawn_ping(observation, *index, options, work);
   if (!ping) return pass_on(ping);
-  const std::vector<MaskLayer> masks = mask_layers(*ping, options);
   const auto slice = chosen_slice(kind, *ping, *sector, options);
   if (!slice) return pass_on(slice);
   const Shape3 shape{sector->fans(), sector->beams(), sector->range().count};
@@ -172,12 +171,13 @@ Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observa
   } else {
     data.sv = nothing.view();
   }
-  data.masks = masks;
+  data.masks = chosen_layers(*ping, options);
   data.refused = drawn_refused(observation, *sector, ping->ping_index, options);
   if (options.display.shadow && ping->staged) {
     data.shadow_from = shadow_of_schools(*ping->staged, *sector, masks, observation.recipe(), options.display);
   }
   SliceStyle style = slice_style(options.display, colours_of(options));
+  style.masks.shown = options.display.masks;
   style.key = slice_key_of(*ping, options);
   auto picture = slice_picture(*sector, data, titled_ping(observation, *ping), drawn_view(*slice, *ping, options),
                                style, theme_of(options), options.size);

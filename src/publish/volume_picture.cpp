@@ -35,6 +35,7 @@ Result<void> place_slices(VolumeFigure& figure, const Sector& sector, const Draw
 /// The selected school's outline is wider.
 void take_masks(VolumeFigure& figure, const DrawnPing& ping, const PictureOptions& options) {
   figure.masks = mask_layers(ping, options);
+  if (!options.display.masks) return;
   for (DrawnSchoolKey& school : school_keys(ping, options)) {
     figure.legend.emplace_back(school.colour, std::move(school.name));
     figure.names.push_back(std::to_string(school.id));

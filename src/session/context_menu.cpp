@@ -38,6 +38,7 @@ constexpr std::array<Id, 1> kBookmark{"event.bookmark"};
 constexpr std::array<Id, 3> kBad{"bad.ping", "bad.interval", "good.interval"};
 constexpr std::array<Id, 1> kMark{"mark.remove"};
 constexpr std::array<Id, 2> kNextEvent{"event.previous", "event.next"};
+constexpr std::array<Id, 2> kTimelineLook{"timelines.filtered", "timelines.maximum"};
 constexpr std::array<Id, 5> kEchogramLook{"echogram.fan", "echogram.depth", "echogram.hold", "echogram.other",
                                           "echogram.channel"};
 constexpr std::array<Id, 2> kPicture{"file.copy_view", "file.save_view"};
@@ -54,7 +55,7 @@ constexpr std::array<ActionGroup, 7> kVolume{kDecide, kFollow, kParts, kEcho, kS
 constexpr std::array<ActionGroup, 6> kObservationMap{kDecide, kFollow, kEcho, kMap, kMeasureMap, kPicture};
 constexpr std::array<ActionGroup, 4> kSurveyMap{kDecide, kChart, kMeasureMap, kPicture};
 constexpr std::array<ActionGroup, 4> kPropagation{kFollow, kShape, kStrip, kPicture};
-constexpr std::array<ActionGroup, 6> kTimeline{kMark, kEvents, kBad, kEcho, kNextEvent, kPicture};
+constexpr std::array<ActionGroup, 7> kTimeline{kMark, kEvents, kBad, kEcho, kNextEvent, kTimelineLook, kPicture};
 constexpr std::array<ActionGroup, 5> kLineage{kDecide, kParts, kBad, kMap, kPicture};
 constexpr std::array<ActionGroup, 4> kEchogram{kEvents, kBad, kEchogramLook, kPicture};
 constexpr std::array<ActionGroup, 3> kCharts{kDecide, kFigures, kPicture};
@@ -69,7 +70,7 @@ constexpr std::array<ActionGroup, 2> kJournal{kUndo, kRows};
 constexpr std::array<ActionGroup, 1> kNotes{kRows};
 
 /// Of the menu bar: the first of what belongs together, after others.
-constexpr std::array<Id, 33> kBegin{"edit.undo",
+constexpr std::array<Id, 34> kBegin{"edit.undo",
                                     "transects.open",
                                     "file.calibration",
                                     "file.run_surveys",
@@ -95,6 +96,7 @@ constexpr std::array<Id, 33> kBegin{"edit.undo",
                                     "school.species",
                                     "school.delete",
                                     "display.filtered",
+                                    "timelines.filtered",
                                     "echogram.fan",
                                     "slice.plane_horizontal",
                                     "slice.range_out",

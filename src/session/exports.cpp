@@ -233,9 +233,10 @@ Result<PictureOptions> picture_options(const Workspace& workspace, PictureKind k
   options.limits_given = true;
   if (!workspace.curve_follows_scale()) options.transfer = workspace.view_curve();
   const TimelineLimits& timelines = workspace.timelines.values();
-  if (kind == PictureKind::timeline && timelines.own_limits) {
-    options.display.scale = timelines.scale(options.display.scale);
-    options.transfer.reset();
+  if (kind == PictureKind::timeline) {
+    options.display.scale = timelines.scale(options.display.scale, options.kind.timeline.maximum);
+    options.display.filtered = timelines.filtered;
+    if (timelines.own_limits) options.transfer.reset();
   }
   if (workspace.document.shown()) {
     options.ping = static_cast<int>(workspace.document.ping());

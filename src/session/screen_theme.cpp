@@ -5,7 +5,9 @@
 #include <cmath>
 
 namespace sonar {
+namespace {
 
+/// With sizes of text and lines times a factor.
 Theme scaled(Theme theme, double factor) {
   theme.text_px *= factor;
   theme.title_px *= factor;
@@ -13,6 +15,8 @@ Theme scaled(Theme theme, double factor) {
   theme.least_text_px *= static_cast<float>(factor);
   return theme;
 }
+
+}  // namespace
 
 Theme screen_theme(PixelSize pixels, double scale, bool dark) {
   const PixelSize units{static_cast<int>(std::lround(pixels.width / scale)),

@@ -22,7 +22,4 @@ inline constexpr double kLeastText_px = 12.0;
 [[nodiscard]] Theme screen_theme(PixelSize pixels, const PictureLook& look);
 [[nodiscard]] Theme dock_theme(PixelSize pixels, const PictureLook& look);
 
-/// A theme with its sizes of text and lines times a factor.
-[[nodiscard]] Theme scaled(Theme theme, double factor);
-
 }  // namespace sonar

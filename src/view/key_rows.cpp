@@ -43,6 +43,7 @@ void add_key(FrameDescription& frame, const PixelRect& place, std::span<const Ke
   const double em = theme.text_px;
   const auto at = places(entries, place.width, theme);
   for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (!entries[i].draw) continue;
     const double middle = place.y + (at[i].first + 0.5) * kFootLine_em * em;
     const PixelRect swatch{std::round(place.x + at[i].second), std::round(middle - 0.5 * em),
                            std::round(kSwatch_em * em), std::round(em)};

@@ -15,7 +15,7 @@ namespace sonar {
 /// One thing that a picture's key explains.
 struct KeyEntry {
   std::string text;
-  std::function<void(FrameDescription& frame, const PixelRect& swatch)> draw;
+  std::function<void(FrameDescription& frame, const PixelRect& swatch)> draw;  ///< empty = its room is left free
 };
 
 /// Lines that the entries take, side by side; none for none.

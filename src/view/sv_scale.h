@@ -18,6 +18,8 @@ namespace sonar {
 
 /// Below every count, so that nothing is cut.
 inline constexpr double kNoThreshold_db = -400.0;
+/// Where the first colour of a mean over all beams begins, which is weaker than a beam's own Sv.
+inline constexpr double kMeansLow_db = -75.0;
 
 /// How Sv becomes colour. Display limits and analysis threshold are two things: below the lower limit nothing is drawn;
 /// what lies below the threshold is neither shown nor integrated.

@@ -15,6 +15,7 @@
 
 #include "base/units.h"
 #include "model/school_totals.h"
+#include "model/strongest_ping.h"
 #include "pipeline/score/score_index.h"
 #include "pipeline/score/score_pairs.h"
 
@@ -255,9 +256,14 @@ PingMask mask_at(const std::map<PingPlace, PingMask>& masks, const PingPlace& pl
 class Difference {
  public:
   explicit Difference(const ObservationProduct& of) : product_(of) {
+    // Where nothing differs the strongest school is seen.
+    const auto kept = [](const SchoolRow& school) { return school.status != "rejected"; };
+    const SchoolPingRow* strongest = strongest_ping(of, kept);
+    const std::int64_t ping = strongest != nullptr ? strongest->ping_index : -1;
     product_.schools.clear();
     product_.school_pings.clear();
     product_.masks.clear();
+    if (ping >= 0) show(kInBoth, ping);
     if (product_.grid) row_of_channel_ = product_.grid->grid.row_of_channel();
   }
   /// Masks by channel.
@@ -270,11 +276,7 @@ class Difference {
     const std::size_t differ = only_a.voxels() + only_b.voxels();
     if (differ <= most_) return;
     most_ = differ;
-    SchoolPingRow row;
-    row.observation = product_.observation;
-    row.school_id = only_a.empty() ? kOnlyInB : kOnlyInA;
-    row.ping_index = ping;
-    product_.school_pings = {row};
+    show(only_a.empty() ? kOnlyInB : kOnlyInA, ping);
   }
   [[nodiscard]] ObservationProduct take() {
     const auto order = [](const SchoolMask& m) { return std::pair(m.school_id, m.ping_index); };
@@ -294,6 +296,13 @@ class Difference {
   }
 
  private:
+  void show(std::int64_t id, std::int64_t ping) {
+    SchoolPingRow row;
+    row.observation = product_.observation;
+    row.school_id = id;
+    row.ping_index = ping;
+    product_.school_pings = {row};
+  }
   void put(std::int64_t id, std::int64_t ping, const PingMask& by_channel) {
     PingMask mask = with_rows(by_channel, row_of_channel_);
     // Which voxels: how surely is each reader's own matter.

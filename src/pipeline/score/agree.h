@@ -106,7 +106,8 @@ struct Agreement {
 
 /// Where each product of A differs from the results of B, as a product to be drawn, never written: its schools are kInBoth,
 /// kOnlyInA and kOnlyInB of all schools that were not rejected, named so, of the origin kDifferenceOrigin. Its one row of
-/// school_pings is of the ping in which most voxels are only one's: what a picture shows first.
+/// school_pings is of the ping in which most voxels are only one's, else of that of A's strongest school: what a picture
+/// shows first.
 inline constexpr const char* kDifferenceOrigin = "difference";
 inline constexpr std::int64_t kInBoth = 1;
 inline constexpr std::int64_t kOnlyInA = 2;

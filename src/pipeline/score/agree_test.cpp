@@ -246,6 +246,22 @@ TEST(Agree, parts_of_a_difference) {
   EXPECT_EQ(parts[0].school_pings[0].ping_index, 8) << "the first of the two in which 60 voxels differ";
 }
 
+/// Readers who agree in every voxel are seen at a school too: A's strongest that was not rejected.
+TEST(Agree, where_nothing_differs_the_strongest_school_is_seen) {
+  ObservationProduct same = anna();
+  for (SchoolPingRow& row : same.school_pings) {
+    row.backscatter_m2 = row.school_id == 2 ? 9.0 : row.school_id == 3 && row.ping_index == 10 ? 5.0 : 1.0;
+  }
+  const auto parts = difference_products(side_of(same), side_of(same));
+  ASSERT_EQ(parts.at(0).school_pings.size(), 1U);
+  EXPECT_EQ(parts[0].school_pings[0].ping_index, 10);
+  EXPECT_EQ(parts[0].school_pings[0].school_id, kInBoth);
+  same.schools.clear();
+  same.school_pings.clear();
+  same.masks.clear();
+  EXPECT_TRUE(difference_products(side_of(same), side_of(same)).at(0).school_pings.empty());
+}
+
 TEST(Agree, json_and_table) {
   const Agreement told = agree(side_of(anna()), side_of(brit()));
   const std::string text = agreement_json(told);

@@ -197,9 +197,9 @@ TEST(StripModel, ShowsThePingsRoundTheOneOnShowAndAClickGoesToOne) {
 }
 
 // As it is in a window that was drawn together to the height of a small laptop.
-TEST(StripModel, InALowViewTheWordsAreSmallerAndThePingsAreThere) {
+TEST(StripModel, InALowViewTheWordsAreFewerAndThePingsAreThere) {
   TestMaps maps;
-  for (const int height : {360, 160, 120, 108}) {
+  for (const int height : {360, 160, 120, 108, 60}) {
     maps.see(maps.strip, {380, height});
     EXPECT_EQ(maps.strip.problem(), "") << height;
     ASSERT_TRUE(maps.strip.places()) << height;

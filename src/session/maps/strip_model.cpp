@@ -17,16 +17,6 @@ constexpr double kStill_px = 3.0;
 constexpr double kNarrowest_em = 7.0;  ///< of a pane
 constexpr double kAround_em = 12.0;    ///< of title, labels and scale, above and below the panes
 constexpr int kLeastPanes = 3;
-constexpr double kRows_em = 13.4;  ///< title, labels, scale and the lowest pane that the picture has
-constexpr double kLeastText_px = 8.0;
-
-/// A low strip has smaller words, rather than none.
-Theme strip_theme(PixelSize size, const PictureLook& look) {
-  const Theme theme = dock_theme(size, look);
-  if (look.panel) return theme;
-  const double fits = std::clamp(size.height / kRows_em, kLeastText_px * look.scale, theme.text_px);
-  return scaled(theme, fits / theme.text_px);
-}
 
 }  // namespace
 
@@ -72,7 +62,7 @@ void StripModel::hear(DocumentChange change) {
 int StripModel::panes() const { return panes_in({size(), scale(), false, {}}); }
 
 int StripModel::panes_in(const PictureLook& look) const {
-  const double em = strip_theme(look.size, look).text_px;
+  const double em = dock_theme(look.size, look).text_px;
   const double wide = look.size.width - 2.0 * em;
   const double high = std::max(kNarrowest_em * em, look.size.height - kAround_em * em);
   const int most = std::max(1, static_cast<int>(wide / (kNarrowest_em * em)));
@@ -140,7 +130,7 @@ LivePicture::Build StripModel::build(const PictureLook& look) {
   return [wish = std::move(wish)](PixelSize size, const CancelToken&, const Show& show) -> Result<void> {
     const MaskedPings masks = masked_pings(wish.state, wish.running, wish.rejected, wish.carried);
     const auto panels = strip_panels(wish, masks);
-    const Theme theme = strip_theme(size, wish.look);
+    const Theme theme = dock_theme(size, wish.look);
     const Sector& sector = wish.observation->sector();
     auto frame = propagation_view(sector, panels, wish.style, size, theme, strip_title(wish));
     if (!frame) return pass_on(frame);

@@ -25,19 +25,21 @@ void add_scale(AppModel& app, const char* id, const char* text, const char* key,
                    }});
 }
 
-void add_switch(AppModel& app, const char* id, const char* text, const char* key, bool DisplayParams::*field) {
+template <class P>
+void add_switch(AppModel& app, const char* id, const char* text, const char* key, Parameters<P>& parameters,
+                bool P::*field) {
   app.actions.add({id,
                    kMenu,
                    text,
                    {key},
                    "",
-                   [&app, field] {
-                     DisplayParams params = app.workspace.display.values();
+                   [&parameters, field] {
+                     P params = parameters.values();
                      params.*field = !(params.*field);
-                     app.workspace.display.assign(params);
+                     parameters.assign(params);
                    },
                    {},
-                   [&app, field] { return app.workspace.display.values().*field; }});
+                   [&parameters, field] { return parameters.values().*field; }});
 }
 
 }  // namespace
@@ -54,10 +56,12 @@ void add_display_actions(AppModel& app) {
             });
   add_scale(app, "display.ek500", "EK500 colours", "F7", "Twelve steps of the echo sounder; the limits stay",
             [](DisplayParams& p) { p.scale.map = ColourMapName::ek500; });
-  add_switch(app, "display.filtered", "Slices: filtered data", "F8", &DisplayParams::filtered);
-  add_switch(app, "display.masks", "Schools over the data", "M", &DisplayParams::masks);
-  add_switch(app, "display.refused", "Refused echoes over the data", "Shift+M", &DisplayParams::refused_echoes);
-  add_switch(app, "display.north_up", "North up", "Ctrl+U", &DisplayParams::north_up);
+  Parameters<DisplayParams>& display = app.workspace.display;
+  add_switch(app, "display.filtered", "Slices: filtered data", "F8", display, &DisplayParams::filtered);
+  add_switch(app, "display.masks", "Schools over the data", "M", display, &DisplayParams::masks);
+  add_switch(app, "display.refused", "Refused echoes over the data", "Shift+M", display,
+             &DisplayParams::refused_echoes);
+  add_switch(app, "display.north_up", "North up", "Ctrl+U", display, &DisplayParams::north_up);
   app.actions.add({"slices.lock",
                    kMenu,
                    "Slices: stay where they are",
@@ -77,6 +81,9 @@ void add_display_actions(AppModel& app) {
                      }
                    },
                    [&app] { return app.workspace.document.shown() != nullptr; }});
+  Parameters<TimelineLimits>& timelines = app.workspace.timelines;
+  add_switch(app, "timelines.filtered", "Timelines: filtered data", "Shift+F8", timelines, &TimelineLimits::filtered);
+  add_switch(app, "timelines.maximum", "Timelines: maximum over beams", "Ctrl+F8", timelines, &TimelineLimits::maximum);
 }
 
 }  // namespace sonar

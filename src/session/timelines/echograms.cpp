@@ -77,7 +77,8 @@ void Echograms::Filling::begin() {
   // What is filled more coarsely than a ping a column is not kept: readers expect every level. Nor is what is of one beam:
   // a survey has hundreds.
   if (per_column == 1 && name.all_beams()) {
-    entry = echogram_entry(cache, *survey, keeps->files(), recipe_hash(recipe), false, kNotFiltered, bins);
+    entry =
+        echogram_entry(cache, *survey, keeps->files(), recipe_hash(recipe), name.shown.filtered, kNotFiltered, bins);
     const int level = echogram_level(static_cast<std::size_t>(pings()), kWidth_px);
     if (auto kept = kept_echogram(entry, level)) {
       done = std::make_shared<const EchogramPyramid>(std::move(*kept));
@@ -102,7 +103,8 @@ Result<std::vector<EchogramCell>> Echograms::Filling::column(std::int64_t ping) 
   if (!name.all_beams()) {
     return echogram_column(**staged, keeps->sector(), keeps->placement(ping), name.of, name.shown, echogram->range());
   }
-  const Volume shown{(*staged)->sv.counts, (*staged)->filtered->flags};
+  const Volume& filtered = *(*staged)->filtered;
+  const Volume shown{name.shown.filtered ? filtered.counts : (*staged)->sv.counts, filtered.flags};
   return echogram_column(keeps->sector(), shown, kNotFiltered, echogram->range());
 }
 
@@ -194,12 +196,6 @@ EchogramPtr Echograms::of(const EchogramName& name) const {
 bool Echograms::complete(const EchogramName& name) const {
   const auto found = kept_.find(name);
   return found != kept_.end() && found->second.complete;
-}
-
-void Echograms::want_all_beams(const void* asker, const std::vector<std::size_t>& observations) {
-  std::vector<EchogramName> names;
-  for (const std::size_t observation : observations) names.push_back({observation, {}, {}});
-  want(asker, std::move(names));
 }
 
 void Echograms::want(const void* asker, std::vector<EchogramName> names) {

@@ -25,9 +25,13 @@ using EchogramPtr = std::shared_ptr<const EchogramPyramid>;
 struct EchogramName {
   std::size_t observation = 0;  ///< index in the survey
   EchogramOf of;                ///< no fan = all beams, out to the last sample, as timelines show them
-  EchogramSamples shown;        ///< of one fan or beam
+  EchogramSamples shown;        ///< of all beams `filtered` alone tells
   int channel = -1;             ///< of an observation whose beams make no grid, 0-based; -1 = of beams
   [[nodiscard]] bool all_beams() const { return channel < 0 && !of.fan; }
+  /// Of all beams: what noise removal took out is left out in either case.
+  [[nodiscard]] static EchogramName of_all_beams(std::size_t observation, bool filtered = false) {
+    return {observation, {}, {.filtered = filtered}};
+  }
   friend auto operator<=>(const EchogramName&, const EchogramName&) = default;
 };
 
@@ -46,13 +50,13 @@ class Echograms {
   [[nodiscard]] EchogramPtr of(const EchogramName& name) const;
   [[nodiscard]] bool complete(const EchogramName& name) const;
   /// The same of all beams.
-  [[nodiscard]] EchogramPtr of(std::size_t observation) const { return of(EchogramName{observation, {}, {}}); }
-  [[nodiscard]] bool complete(std::size_t observation) const { return complete(EchogramName{observation, {}, {}}); }
+  [[nodiscard]] EchogramPtr of(std::size_t observation) const { return of(EchogramName::of_all_beams(observation)); }
+  [[nodiscard]] bool complete(std::size_t observation) const {
+    return complete(EchogramName::of_all_beams(observation));
+  }
   /// What is to be filled, the most urgent first, in place of what the same asker asked for before. None = it no longer
   /// looks.
   void want(const void* asker, std::vector<EchogramName> names);
-  /// Of all beams.
-  void want_all_beams(const void* asker, const std::vector<std::size_t>& observations);
   /// Called when of() has changed.
   [[nodiscard]] Listeners<>& changed() { return changed_; }
   /// Returns when no pings are being read; the rest goes on when the queue is drained. For tests.

@@ -100,7 +100,8 @@ LivePicture::Build TimelineModel::build(const PictureLook& look) {
   if (!shown) return {};
   TimelineWish wish;
   wish.survey = {shown, &shown->survey()};
-  std::vector<std::size_t> fill{shown->index()};
+  const TimelineLimits& limits = workspace_.timelines.values();
+  std::vector<EchogramName> fill{EchogramName::of_all_beams(shown->index(), limits.filtered)};
   for (const std::size_t index : observations()) {
     TimelineWish::Observation& one = wish.observations.emplace_back();
     one.index = index;
@@ -109,15 +110,18 @@ LivePicture::Build TimelineModel::build(const PictureLook& look) {
     if (const auto found = document.choices().states.find(index); found != document.choices().states.end()) {
       one.state = found->second;
     }
-    one.echogram = echograms_->of(index);
+    const auto name = EchogramName::of_all_beams(index, limits.filtered);
+    one.echogram = echograms_->of(name);
     if (workspace_.school() && workspace_.school()->observation == index) one.selected = workspace_.school()->number;
     one.refused = refused_layer(workspace_, index);
     one.chosen_echo = chosen_echo(workspace_, index);
-    if (index != shown->index()) fill.push_back(index);
+    if (index != shown->index()) fill.push_back(name);
   }
-  echograms_->want_all_beams(this, fill);
+  echograms_->want(this, std::move(fill));
   wish.transects = workspace_.transects().periods;
-  wish.sv = workspace_.timelines.values().scale(workspace_.display.values().scale);
+  wish.maximum = limits.maximum;
+  wish.filtered = limits.filtered;
+  wish.sv = limits.scale(workspace_.display.values().scale);
   wish.shown = window_.shown();
   wish.look = look;
   return [painter = look.panel ? std::make_shared<TimelinePainter>() : painter_, wish = std::move(wish)](
@@ -133,8 +137,10 @@ std::string TimelineModel::incomplete() const {
   const SurveyFiles* survey = workspace_.document.survey();
   if (survey != nullptr && !survey->raw_gone.empty()) return {};
   const auto all = observations();
-  const bool complete =
-      std::all_of(all.begin(), all.end(), [this](std::size_t index) { return echograms_->complete(index); });
+  const bool filtered = workspace_.timelines.values().filtered;
+  const bool complete = std::all_of(all.begin(), all.end(), [this, filtered](std::size_t index) {
+    return echograms_->complete(EchogramName::of_all_beams(index, filtered));
+  });
   return complete ? std::string() : "the timeline is still being read";
 }
 

@@ -82,7 +82,8 @@ Result<TimelinePainter::Painted> TimelinePainter::paint(const TimelineWish& wish
   }
   const Theme theme = dock_theme(size, wish.look);
   TimelineStyle style;
-  style.value = EchogramValue::maximum;
+  style.value = wish.maximum ? EchogramValue::maximum : EchogramValue::mean;
+  style.filtered = wish.filtered;
   style.scale = wish.sv;
   style.by_school = true;
   style.raw_there = survey_->raw_gone.empty();

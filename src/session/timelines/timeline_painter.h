@@ -28,7 +28,9 @@ struct TimelineWish {
   std::vector<Observation> observations;
   std::optional<TimelineInterval> shown;  ///< part of the time axis; empty = all
   std::vector<Transect> transects;        ///< flags tell where each begins
-  SvScale sv;                             ///< of the maximum of all beams
+  bool maximum = true;                    ///< of all beams, else their mean
+  bool filtered = false;                  ///< the echograms are without noise
+  SvScale sv;
   bool rejected = true;
   PictureLook look;
 };

@@ -70,6 +70,58 @@ TEST(TimelineModel, TheEchogramIsThatOfEveryPingReadAtOnce) {
   EXPECT_TRUE(maps.echograms->complete(1));
 }
 
+TEST(TimelineModel, FilteredDataAreAnEchogramOfTheirOwnWhichIsReadWhenItIsAskedFor) {
+  TestMaps maps;
+  maps.see(maps.timeline, {900, 400});
+  const auto filtered = EchogramName::of_all_beams(0, true);
+  EXPECT_FALSE(maps.echograms->of(filtered));
+  const Image as_recorded = maps.timeline.image();
+  ASSERT_TRUE(maps.workspace.timelines.set("filtered", true));
+  maps.settle();
+  EXPECT_TRUE(maps.timeline.incomplete().empty());
+  const auto filled = maps.echograms->of(filtered);
+  ASSERT_TRUE(filled && maps.echograms->complete(filtered));
+  const auto& shown = *maps.workspace.document.shown();
+  Engine engine(shown.survey(), shown.files(), maps.workspace.document.recipe());
+  Work work;
+  ASSERT_TRUE(engine.estimate_background(0, shown.pings() - 1, work));
+  const EchogramRange range = echogram_range(shown.sector().range());
+  EchogramPyramid whole(range);
+  for (std::int64_t i = 0; i < shown.pings(); ++i) {
+    const auto ping = engine.staged(i);
+    ASSERT_TRUE(ping);
+    whole.add_ping(shown.files().navigation[static_cast<std::size_t>(i)].time,
+                   echogram_column(shown.sector(), *ping->filtered, kNotFiltered, range));
+  }
+  EXPECT_EQ(filled->level(0), whole.level(0));
+  EXPECT_NE(maps.timeline.image(), as_recorded);
+  ASSERT_TRUE(maps.workspace.timelines.set("filtered", false));
+  maps.settle();
+  EXPECT_EQ(maps.timeline.image(), as_recorded) << "both are kept";
+  ASSERT_TRUE(maps.workspace.timelines.set("maximum", false));
+  maps.settle();
+  EXPECT_NE(maps.timeline.image(), as_recorded) << "the mean";
+}
+
+TEST(TimelineLimits, OfMeansBeginLowerUnlessTheyAreItsOwn) {
+  SvScale slices;
+  slices.low_db = -50.0;
+  slices.map = ColourMapName::ek500;
+  slices.threshold_db = -90.0;
+  TimelineLimits limits;
+  EXPECT_EQ(limits.scale(slices), slices) << "a beam's own Sv, as in slices";
+  limits.maximum = false;
+  SvScale means = slices;
+  means.low_db = -75.0;
+  EXPECT_EQ(limits.scale(slices), means);
+  limits.own_limits = true;
+  limits.low_db = -82.0;
+  limits.span_db = 20.0;
+  means.low_db = -82.0;
+  means.span_db = 20.0;
+  EXPECT_EQ(limits.scale(slices), means);
+}
+
 TEST(TimelineModel, OwnLimitsAreTheSlicesUntilTheyAreSwitchedOnAndThenNotTheirs) {
   TestMaps maps;
   Workspace& workspace = maps.workspace;
@@ -98,11 +150,14 @@ TEST(TimelineLimits, AreThoseOfAPictureInAFileAndOfNoOtherKind) {
   ASSERT_TRUE(workspace.timelines.set("own_limits", true));
   ASSERT_TRUE(workspace.timelines.set("low_db", -80.0));
   ASSERT_TRUE(workspace.timelines.set("span_db", 50.0));
+  ASSERT_TRUE(workspace.timelines.set("filtered", true));
   const auto timeline = picture_options(workspace, PictureKind::timeline);
   const auto slice = picture_options(workspace, PictureKind::slice_top);
   ASSERT_TRUE(timeline && slice);
   EXPECT_EQ(timeline->display.scale.low_db, -80.0);
   EXPECT_EQ(timeline->display.scale.high_db(), -30.0);
+  EXPECT_TRUE(timeline->display.filtered);
+  EXPECT_FALSE(slice->display.filtered);
   EXPECT_EQ(slice->display.scale, workspace.display.values().scale);
   Preferences kept;
   kept.take(workspace);

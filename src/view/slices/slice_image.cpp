@@ -111,6 +111,7 @@ Result<Image> slice_image(const SliceMap& map, const SliceData& data, const SvCo
     colour_samples(image, map, data, table);
   }
   if (data.shadow_from.size() == shape.rows()) hatch_shadow(image, map, data.shadow_from, theme);
+  if (!masks.shown) return image;
   if (auto ok = blend_masks(image, map, data.masks, masks, theme); !ok) return pass_on(ok);
   return image;
 }

@@ -50,6 +50,43 @@ SampleFlags unfiltered_hidden(const SliceStyle& style) {
   return style.key->filtered ? without(style.flags.hidden, kNotFiltered) : style.flags.hidden;
 }
 
+/// The schools that the slice cuts, and what core and fuzzy area are.
+void add_schools(std::vector<KeyEntry>& out, const SliceStyle& style, const std::vector<bool>& cut,
+                 const Theme& theme) {
+  bool areas = false;
+  for (const SliceKey::School& school : style.key->schools) {
+    if (school.mask && (*school.mask >= cut.size() || !cut[*school.mask])) continue;
+    areas = true;
+    out.push_back(
+        {school.name, [school, theme](FrameDescription& frame, const PixelRect& at) {
+           const double middle = at.y + 0.5 * at.height;
+           PathItem line = line_item({at.x, middle}, {at.x + at.width, middle}, school.colour, 2.0 * theme.line_px);
+           line.stroke.dashes_px = line_dashes(school.line, theme);
+           frame.items.emplace_back(std::move(line));
+         }});
+  }
+  if (!areas) return;
+  const std::string core = fmt::format("core, confidence {:g} and more", style.masks.core_at);
+  if (!style.masks.tint) {
+    out.push_back({core, [theme](FrameDescription& frame, const PixelRect& at) {
+                     const double middle = at.y + 0.5 * at.height;
+                     PathItem line = line_item({at.x, middle}, {at.x + at.width, middle}, theme.text, theme.line_px);
+                     line.stroke.dashes_px = {theme.line_px, 3.0 * theme.line_px};
+                     frame.items.emplace_back(std::move(line));
+                   }});
+    return;
+  }
+  // Any colour may be a school's: the key shows how much of it covers the data.
+  const auto area = [&](double strength, std::string text) {
+    const Rgba8 colour = mixed(theme.water, theme.text, static_cast<int>(std::lround(255.0 * strength)));
+    out.push_back({std::move(text), [colour, theme](FrameDescription& frame, const PixelRect& at) {
+                     frame.items.emplace_back(rectangle_item(at, colour, theme.axis, 0.5 * theme.line_px));
+                   }});
+  };
+  area(style.masks.core_strength, core);
+  area(style.masks.fuzzy_strength, "fuzzy area, below that");
+}
+
 }  // namespace
 
 Rgba8 faded_colour(Rgba8 colour, const Theme& theme) { return mixed(colour, theme.water, kFade); }
@@ -112,38 +149,12 @@ std::vector<KeyEntry> slice_key(const SliceStyle& style, const std::vector<bool>
     const SampleFlags bounds = hidden & kNeverMember;
     explain(Look::hidden, any(bounds) ? "taken out: noise, " + flag_text(bounds) : "taken out: noise removed");
   }
-  bool areas = false;
-  for (const SliceKey::School& school : style.key->schools) {
-    if (school.mask && (*school.mask >= cut.size() || !cut[*school.mask])) continue;
-    areas = true;
-    out.push_back(
-        {school.name, [school, theme](FrameDescription& frame, const PixelRect& at) {
-           const double middle = at.y + 0.5 * at.height;
-           PathItem line = line_item({at.x, middle}, {at.x + at.width, middle}, school.colour, 2.0 * theme.line_px);
-           line.stroke.dashes_px = line_dashes(school.line, theme);
-           frame.items.emplace_back(std::move(line));
-         }});
+  const std::size_t schools = out.size();
+  add_schools(out, style, cut, theme);
+  if (!style.masks.shown) {
+    // The slice lies where it does with its schools.
+    for (std::size_t k = schools; k < out.size(); ++k) out[k].draw = nullptr;
   }
-  if (!areas) return out;
-  const std::string core = fmt::format("core, confidence {:g} and more", style.masks.core_at);
-  if (!style.masks.tint) {
-    out.push_back({core, [theme](FrameDescription& frame, const PixelRect& at) {
-                     const double middle = at.y + 0.5 * at.height;
-                     PathItem line = line_item({at.x, middle}, {at.x + at.width, middle}, theme.text, theme.line_px);
-                     line.stroke.dashes_px = {theme.line_px, 3.0 * theme.line_px};
-                     frame.items.emplace_back(std::move(line));
-                   }});
-    return out;
-  }
-  // Any colour may be a school's: the key shows how much of it covers the data.
-  const auto area = [&](double strength, std::string text) {
-    const Rgba8 colour = mixed(theme.water, theme.text, static_cast<int>(std::lround(255.0 * strength)));
-    out.push_back({std::move(text), [colour, theme](FrameDescription& frame, const PixelRect& at) {
-                     frame.items.emplace_back(rectangle_item(at, colour, theme.axis, 0.5 * theme.line_px));
-                   }});
-  };
-  area(style.masks.core_strength, core);
-  area(style.masks.fuzzy_strength, "fuzzy area, below that");
   return out;
 }
 

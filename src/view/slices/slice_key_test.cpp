@@ -90,6 +90,46 @@ TEST(SlicePicture, AKeyNamesTheSchoolsThatTheSliceCuts) {
   EXPECT_FALSE(said(words(0), "fuzzy area, below that"));
 }
 
+// Switched off, schools leave their room in the key: nothing else of the picture moves.
+TEST(SlicePicture, SchoolsThatAreNotShownChangeNothingElse) {
+  const Sector sector = hand_sector();
+  const LitVolume volume(sector, kLit, -30.0, -90.0);
+  const PixelSize size{640, 480};
+  SliceData data = volume.data();
+  SliceStyle style;
+  style.flags.hatched = SampleFlags::interference;
+  style.key = SliceKey{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    auto mask = std::make_shared<PingMask>();
+    mask->runs = {{4 * sector.beams() + static_cast<int>(i), 20, 6}};
+    mask->confidence.assign(6, 200);
+    data.masks.push_back({mask, {1.0F, 0.0F, 0.0F}});
+    style.key->schools.push_back({{255, 0, 0, 255}, OutlineLine::solid, "a school, unreviewed", i});
+  }
+  SliceData bare = data;
+  bare.masks.clear();
+  const auto drawn = [&](const SliceData& of, const SliceStyle& as) {
+    return *slice_picture(sector, of, {}, kTop, as, light_theme(size), size);
+  };
+  const auto image_of = [](const SlicePicture& picture) {
+    for (const auto& item : picture.frame.items) {
+      if (const auto* image = std::get_if<ImageItem>(&item)) return *image->image;
+    }
+    return Image{};
+  };
+  const SlicePicture with = drawn(data, style);
+  style.masks.shown = false;
+  const SlicePicture without = drawn(data, style);
+  EXPECT_EQ(with.plot.place, without.plot.place);
+  EXPECT_NE(image_of(with), image_of(without));
+  auto words = texts_of(with);
+  std::erase_if(words, [](const std::string& w) { return w.starts_with("a school") || w.starts_with("core"); });
+  EXPECT_EQ(words, texts_of(without));
+  // The same data drawn as though there had never been a school, in the same place.
+  const auto image = slice_image(*without.map, bare, style.colours, style.flags, style.masks, light_theme(size));
+  EXPECT_EQ(image_of(without), *image);
+}
+
 // The key begins where the slice begins.
 TEST(SlicePicture, AKeyStandsBelowItsSlice) {
   const Layout layout = lay_out({800, 600}, light_theme({800, 600}), {.foot_lines = 2});

@@ -33,6 +33,7 @@ struct FlagStyle {
 
 /// How selected areas lie over the data.
 struct SliceMaskStyle {
+  bool shown = true;           ///< off: nothing of them is drawn, and their room in the key is left free
   double core_at = 0.64;       ///< confidence from which a voxel is core; below it is fuzzy
   bool tint = false;           ///< over the data, whose colours it changes; else a dotted line round the core
   double core_strength = 0.5;  ///< of the tint, 0 = data alone .. 1 = colour alone

@@ -44,7 +44,7 @@ struct TimelineHeights {
 struct TimelineStyle {
   EchogramValue value = EchogramValue::mean;  ///< over beams (and pings and ranges, where a pixel has several)
   TimelineAxis axis = TimelineAxis::time;
-  SvScale scale{.low_db = -75.0, .span_db = 36.0};
+  SvScale scale{.low_db = kMeansLow_db};
   bool schools = true;
   bool by_school = false;  ///< each school in its own colour, rejected ones grey; else status tells the colour
   bool brief = false;      ///< no title, and a colour bar only where it is wide: a window has its own

@@ -15,7 +15,7 @@
 
 namespace sonar {
 
-void add_ping_label(FrameDescription& frame, const PropagationPanel& panel, const PropagationStyle& style,
+void add_ping_label(FrameDescription& frame, const PropagationPanel& panel, const PropagationStyle& style, bool timed,
                     const PixelRect& place, const Theme& theme) {
   const double em = theme.text_px;
   const double middle = place.x + place.width / 2.0;
@@ -26,11 +26,11 @@ void add_ping_label(FrameDescription& frame, const PropagationPanel& panel, cons
     y -= 1.3 * em;
     return std::get<TextItem>(frame.items.back());
   };
-  if (panel.time != 0) {
+  if (timed && panel.time != 0) {
     const std::string clock = clock_text(panel.time, true);
     add(clock.substr(11) + (style.dates ? " UTC" : ""), small_text_px(theme, 0.9), theme.muted);
     if (style.dates) add(clock.substr(0, 10), small_text_px(theme, 0.9), theme.muted);
-  } else {
+  } else if (timed) {
     y -= (style.dates ? 2.6 : 1.3) * em;
   }
   add(fmt::format("ping {}", panel.ping_index), em, theme.text).bold = panel.current;

@@ -8,8 +8,8 @@
 
 namespace sonar {
 
-/// Ping and time above a panel, the last line nearest to it.
-void add_ping_label(FrameDescription& frame, const PropagationPanel& panel, const PropagationStyle& style,
+/// Ping and, where there is room, time above a panel, the last line nearest to it.
+void add_ping_label(FrameDescription& frame, const PropagationPanel& panel, const PropagationStyle& style, bool timed,
                     const PixelRect& place, const Theme& theme);
 
 /// Depths below the sea surface along a panel's left edge, and the surface where it is seen.

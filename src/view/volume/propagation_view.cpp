@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -109,8 +110,20 @@ struct Grid {
   double height = 0.0;
 };
 
+/// What stands round the panels.
+struct Words {
+  bool title = true;
+  bool times = true;
+  bool scale = true;
+  bool pings = true;
+};
+/// Each says less than the one before: a low view has fewer words, not smaller ones.
+constexpr std::array<Words, 5> kWords{
+    {{}, {.title = false}, {false, false}, {false, false, false}, {false, false, false, false}}};
+
 struct Panels {
   PixelRect area;
+  Words words;
   Grid grid;
   double label_px = 0.0;
   double gap_px = 0.0;
@@ -124,13 +137,14 @@ struct Panels {
 
 /// As many columns as make the panels largest for what they show.
 Panels laid_out(PixelSize size, const Theme& theme, std::size_t count, const Window& window,
-                const PropagationStyle& style) {
+                const PropagationStyle& style, const Words& words) {
   const double em = theme.text_px;
   Panels p;
+  p.words = words;
   p.gap_px = 0.7 * em;
-  p.label_px = (style.dates ? 4.2 : 3.0) * em;
-  const double top = theme.titles ? 1.6 * em + 1.5 * theme.title_px : 0.6 * em;
-  p.area = {em, top, size.width - 2.0 * em, size.height - top - 3.2 * em};
+  p.label_px = (!words.pings ? 0.0 : !words.times ? 1.7 : style.dates ? 4.2 : 3.0) * em;
+  const double top = theme.titles && words.title ? 1.6 * em + 1.5 * theme.title_px : 0.6 * em;
+  p.area = {em, top, size.width - 2.0 * em, size.height - top - (words.scale ? 3.2 : 0.6) * em};
   const double shape = (window.right - window.left) / (window.high - window.low);
   double best = 0.0;
   const int n = static_cast<int>(count);
@@ -233,7 +247,8 @@ void add_state(FrameDescription& frame, const std::string& state, const PixelRec
 }
 
 void add_panel(FrameDescription& frame, const Sector& sector, const PropagationPanel& panel,
-               const PropagationStyle& style, const Scale& scale, const PixelRect& place, const Theme& theme) {
+               const PropagationStyle& style, const Scale& scale, const PixelRect& place, const Words& words,
+               const Theme& theme) {
   const std::string state = state_of(panel);
   frame.items.emplace_back(rectangle_item(place, !panel.bad ? theme.plot : theme.no_data));
   if (panel.absent) {
@@ -262,7 +277,7 @@ void add_panel(FrameDescription& frame, const Sector& sector, const PropagationP
                                           (panel.current ? 2.5 : 1.0) * theme.line_px));
   if (!state.empty()) add_state(frame, state, place, theme);
   add_panel_note(frame, panel.note, place, theme);
-  add_ping_label(frame, panel, style, place, theme);
+  if (words.pings) add_ping_label(frame, panel, style, words.times, place, theme);
 }
 
 void add_footer(FrameDescription& frame, const Panels& panels, const PropagationStyle& style, const Scale& scale,
@@ -343,9 +358,14 @@ Result<LaidOut> laid_out(const Sector& sector, std::span<const PropagationPanel>
   if (auto ok = validate(style); !ok) return pass_on(ok);
   if (panels.empty()) return fail(ErrorCode::bad_parameter, "a propagation view needs at least one ping");
   const Window window = window_of(sector, panels, style);
-  LaidOut out{laid_out(size, theme, panels.size(), window, style), {}};
+  LaidOut out;
   const Grid& grid = out.places.grid;
-  if (grid.width < kLeastPanel_em * theme.text_px || grid.height < kLeastPanel_em * theme.text_px / 2.0) {
+  const double least_px = kLeastPanel_em * theme.text_px;
+  for (const Words& words : kWords) {
+    out.places = laid_out(size, theme, panels.size(), window, style, words);
+    if (grid.height >= least_px / 2.0) break;
+  }
+  if (grid.width < least_px || grid.height < least_px / 2.0) {
     return fail(ErrorCode::bad_parameter, fmt::format("a picture of {} x {} pixels is too small for {} pings",
                                                       size.width, size.height, panels.size()));
   }
@@ -378,12 +398,12 @@ Result<FrameDescription> propagation_view(const Sector& sector, std::span<const 
   frame.background = theme.background;
   frame.title = title;
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    add_panel(frame, sector, panels[i], style, scale, places.place(i), theme);
+    add_panel(frame, sector, panels[i], style, scale, places.place(i), places.words, theme);
   }
-  add_footer(frame, places, style, scale, theme);
+  if (places.words.scale) add_footer(frame, places, style, scale, theme);
   Layout layout;
   layout.title = {places.area.x, 0.9 * theme.text_px, places.area.width, places.area.y};
-  if (!title.empty()) add_title(frame, layout, theme, {title});
+  if (!title.empty() && places.words.title) add_title(frame, layout, theme, {title});
   return frame;
 }
 

@@ -5,9 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "view/maps/map_example.h"
+#include "view/maps/map_items.h"
 
 namespace sonar {
 namespace {
@@ -36,6 +40,38 @@ TEST(PropagationView, AStripIsOneRowThatTellsItsPlacesAndWhyAPropagationEnded) {
     EXPECT_GT((*places)[i].x, (*places)[i - 1].x + (*places)[i - 1].width);
   }
   EXPECT_EQ(image_of(*frame, 0)->place.x, (*places)[2].x);  // ping 3 is the third of 1 .. 7
+}
+
+// Words go in the order of what is missed least, and those that stay can be read.
+TEST(PropagationView, ALowStripHasFewerWordsNotSmallerOnes) {
+  ObservationProduct p = map_example::product("obs-0001", 9);
+  map_example::add_school(p, 4, p.pings[3].transducer, 3, 4, map_example::block(2, 1, 2, 24, 3));
+  PropagationStyle style;
+  style.before = style.after = 1;
+  style.one_row = true;
+  const auto panels = propagation_panels(p, 3, style);
+  const Sector sector = p.grid->grid.sector(p.grid->range);
+  const std::string time = clock_text(p.pings[3].time, true).substr(11);
+  std::size_t said = 4;
+  for (int height = 200; height >= 55; --height) {
+    const PixelSize size{600, height};
+    const Theme theme = with_text(light_theme(size), 12.0);
+    const auto frame = propagation_view(sector, panels, style, size, theme, "obs-0001");
+    ASSERT_TRUE(frame) << height;
+    const std::vector<bool> there{says(*frame, "ping 3"), says(*frame, " m "), says(*frame, time),
+                                  says(*frame, "obs-0001")};
+    EXPECT_TRUE(std::ranges::is_sorted(there, std::greater{})) << height;
+    const auto now = static_cast<std::size_t>(std::ranges::count(there, true));
+    EXPECT_LE(now, said) << height;
+    said = now;
+    for (const auto& item : frame->items) {
+      const auto* text = std::get_if<TextItem>(&item);
+      if (text == nullptr) continue;
+      EXPECT_GE(text->size_px, 12.0) << text->text;
+    }
+    EXPECT_TRUE(height < 200 || said == 4U);
+  }
+  EXPECT_EQ(said, 0U);
 }
 
 TEST(PropagationView, NeighboursAreLabelledAndSayWhatTheyAre) {
