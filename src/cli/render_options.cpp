@@ -15,7 +15,7 @@
 namespace sonar {
 namespace {
 
-constexpr const char* kOfPing = "slice- volume propagation observation-map echogram frequency noise-steps";
+constexpr const char* kOfPing = "slice- volume propagation observation-map echogram frequency curves noise-steps";
 constexpr const char* kOfSv = "slice- volume timeline echogram";
 
 std::vector<std::string> kind_names() {
@@ -49,7 +49,7 @@ void add_common(CLI::App& verb, RenderArguments& a) {
   suits(verb.add_option("--observation", a.observation,
                         "Observation to draw, e.g. obs-0001; default: the first, and of a chart all")
             ->check(some_name()),
-        "slice- volume propagation observation-map timeline echogram chart frequency noise-steps lineage movie");
+        "slice- volume propagation observation-map timeline echogram chart frequency curves noise-steps lineage movie");
   suits(verb.add_option("--ping", a.picture.ping,
                         "Ping index; default: that of the strongest whole school, else the middle one"),
         kOfPing);
@@ -175,6 +175,7 @@ void settle_options(const CLI::App& verb, RenderArguments& a) {
   const auto given = [&](const char* option) { return verb.get_option(option)->count() > 0; };
   PictureOptions& picture = a.picture;
   picture.kind.echogram.along_log = picture.kind.timeline.along_log;
+  picture.kind.curves.one_ping = picture.kind.frequency.one_ping;
   picture.limits_given = given("--low-db") || given("--span-db");
   if (a.filtered) picture.display.filtered = true;
   if (a.unfiltered) picture.volume.filtered = false;

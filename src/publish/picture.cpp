@@ -9,6 +9,7 @@
 #include "base/time.h"
 #include "pipeline/recipe/recipe.h"
 #include "publish/chart_picture.h"
+#include "publish/curves_picture.h"
 #include "publish/echogram_picture.h"
 #include "publish/frequency_picture.h"
 #include "publish/lineage_picture.h"
@@ -57,8 +58,10 @@ std::string time_of(const std::vector<DrawnObservation*>& observations) {
 Result<std::vector<DrawnObservation*>> drawn_of(PictureKind kind, PictureSource& source, const std::string& observation,
                                                 const PictureOptions& options) {
   std::vector<DrawnObservation*> drawn;
-  const bool all = kind == PictureKind::survey_map || kind == PictureKind::report ||
-                   (kind == PictureKind::chart && observation.empty());
+  const bool all =
+      kind == PictureKind::survey_map || kind == PictureKind::report ||
+      (observation.empty() && (kind == PictureKind::chart ||
+                               (kind == PictureKind::curves && options.kind.curves.curve == SchoolCurve::avoidance)));
   if (all || (kind == PictureKind::timeline && options.kind.timeline.whole_survey)) {
     for (DrawnObservation& one : source.observations()) drawn.push_back(&one);
     return drawn;
@@ -76,6 +79,7 @@ Result<FrameDescription> frame_of(PictureKind kind, PictureSource& source, const
   if (kind == PictureKind::echogram) return echogram_frame(source, *drawn.front(), options, work);
   if (kind == PictureKind::report) return report_page(source, options, work);
   if (kind == PictureKind::chart) return chart_frame(drawn, options);
+  if (kind == PictureKind::curves) return curves_frame(drawn, options, work);
   return observation_frame(kind, *drawn.front(), options, work);
 }
 

@@ -20,6 +20,9 @@ std::span<const PictureKindInfo> picture_kinds() {
       {"echogram", "Sv of one beam, one fan or one channel against time, with the schools in it"},
       {"chart", "figures of schools: one column of a table over another, or the histogram of one"},
       {"frequency", "mean Sv of schools, and of the water round them, in each fan over the fan's frequency"},
+      {"curves",
+       "curves of schools: Sv in them and round them, their size over the tolerance of growing, or their behaviour "
+       "against the ship"},
       {"noise-steps", "a slice as recorded and after each step of noise removal, or two of the steps compared"},
       {"lineage", "what became of an observation's schools: born, split, merged, lost and seen again, a lane each"},
       {"movie", "one of the kinds that show a ping, moving: over pings, round a ping, or along the track"},

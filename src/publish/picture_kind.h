@@ -23,6 +23,7 @@ enum class PictureKind : std::uint8_t {
   echogram,
   chart,
   frequency,
+  curves,
   noise_steps,
   lineage,
   movie,

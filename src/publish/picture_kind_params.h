@@ -181,8 +181,36 @@ struct FrequencyParams {
 
 template <class Visitor>
 void describe(Visitor& v, FrequencyParams& p) {
-  v.field("one_ping", p.one_ping, {.text = "of one ping alone, not of all of a school's", .tier = Tier::basic});
+  v.field("one_ping", p.one_ping,
+          {.text = "of one ping alone, not of all of a school's", .tier = Tier::basic, .suits = "frequency curves"});
   v.field("water", p.water, {.text = "show the water round each school too", .tier = Tier::basic});
+}
+
+/// What curves are of.
+enum class SchoolCurve : std::uint8_t { distribution, tolerance, avoidance };
+inline constexpr std::array<std::string_view, 3> kSchoolCurveNames{"distribution", "tolerance", "avoidance"};
+enum class AgainstShip : std::uint8_t { range, bearing, time, all };
+inline constexpr std::array<std::string_view, 4> kAgainstShipNames{"range", "bearing", "time", "all"};
+
+struct CurvesParams {
+  SchoolCurve curve = SchoolCurve::distribution;
+  bool one_ping = false;
+  AgainstShip over = AgainstShip::all;
+  friend bool operator==(const CurvesParams&, const CurvesParams&) = default;
+};
+
+template <class Visitor>
+void describe(Visitor& v, CurvesParams& p) {
+  v.choice(
+      "curve", p.curve, kSchoolCurveNames,
+      {"how Sv is distributed in a school and in the water round it; how its size changes with the tolerance that it "
+       "grows with; or how all schools behave against the ship",
+       Tier::basic});
+  v.field(
+      "one_ping", p.one_ping,
+      {.text = "the distribution of one ping alone, not of all of a school's", .tier = Tier::basic, .flag = kNoFlag});
+  v.choice("over", p.over, kAgainstShipNames,
+           {"against the ship: over range, bearing from the bow or time to the closest approach", Tier::basic});
 }
 
 /// The slice that noise steps are shown of.

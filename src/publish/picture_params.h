@@ -142,6 +142,7 @@ struct PictureParams {
   EchogramParams echogram;
   ChartParams chart;
   FrequencyParams frequency;
+  CurvesParams curves;
   NoiseStepsParams noise_steps;
   MovieParams movie;
 };
@@ -156,6 +157,7 @@ void describe(Visitor& v, PictureParams& p) {
   v.group("echogram", p.echogram, "one beam, fan or channel over time");
   v.group("chart", p.chart, "figures of schools");
   v.group("frequency", p.frequency, "schools over the frequencies of the fans");
+  v.group("curves", p.curves, "curves of schools");
   v.group("noise-steps", p.noise_steps, "a slice at each step of noise removal");
   v.group("movie", p.movie, "what moves in a movie, and how fast");
 }

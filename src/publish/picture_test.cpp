@@ -69,9 +69,10 @@ class Pictures : public testing::Test {
 };
 
 TEST_F(Pictures, EveryKindIsMadeOfAProductAlone) {
-  EXPECT_EQ(picture_kinds().size(), kKinds.size() + 3)
-      << "a movie is no single picture, noise and frequencies are of samples";
+  EXPECT_EQ(picture_kinds().size(), kKinds.size() + 4)
+      << "a movie is no single picture, noise, frequencies and curves are of samples";
   refused(PictureKind::frequency, "name the raw files of obs-0001 too", [](PictureOptions&) {});
+  refused(PictureKind::curves, "name the raw files of obs-0001 too", [](PictureOptions&) {});
   refused(PictureKind::noise_steps, "name the raw files of obs-0001 too", [](PictureOptions&) {});
   for (const PictureKind kind : kKinds) {
     const auto frame = picture(kind);

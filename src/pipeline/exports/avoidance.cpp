@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/exports/avoidance.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -29,18 +30,39 @@ struct Figure {
   double SchoolPingRow::*column;
   double AvoidanceRow::*mean;
   double AvoidanceRow::*error;
+  std::array<double AvoidanceRow::*, 3> quartiles;
   bool decibels = false;
 };
 using P = SchoolPingRow;
 using A = AvoidanceRow;
-constexpr std::array<Figure, 7> kFigures{
-    {{&P::speed_smoothed_mps, &A::speed_smoothed_mps, &A::speed_smoothed_se_mps},
-     {&P::speed_away_mps, &A::speed_away_mps, &A::speed_away_se_mps},
-     {&P::speed_away_water_mps, &A::speed_away_water_mps, &A::speed_away_water_se_mps},
-     {&P::course_away_deg, &A::course_away_deg, &A::course_away_se_deg},
-     {&P::depth_m, &A::depth_m, &A::depth_se_m},
-     {&P::vertical_speed_smoothed_mps, &A::vertical_speed_smoothed_mps, &A::vertical_speed_smoothed_se_mps},
-     {&P::sv_mean_db, &A::sv_mean_db, &A::sv_mean_se_db, true}}};
+constexpr std::array<Figure, 7> kFigures{{
+    {&P::speed_smoothed_mps,
+     &A::speed_smoothed_mps,
+     &A::speed_smoothed_se_mps,
+     {&A::speed_smoothed_p25_mps, &A::speed_smoothed_p50_mps, &A::speed_smoothed_p75_mps}},
+    {&P::speed_away_mps,
+     &A::speed_away_mps,
+     &A::speed_away_se_mps,
+     {&A::speed_away_p25_mps, &A::speed_away_p50_mps, &A::speed_away_p75_mps}},
+    {&P::speed_away_water_mps,
+     &A::speed_away_water_mps,
+     &A::speed_away_water_se_mps,
+     {&A::speed_away_water_p25_mps, &A::speed_away_water_p50_mps, &A::speed_away_water_p75_mps}},
+    {&P::course_away_deg,
+     &A::course_away_deg,
+     &A::course_away_se_deg,
+     {&A::course_away_p25_deg, &A::course_away_p50_deg, &A::course_away_p75_deg}},
+    {&P::depth_m, &A::depth_m, &A::depth_se_m, {&A::depth_p25_m, &A::depth_p50_m, &A::depth_p75_m}},
+    {&P::vertical_speed_smoothed_mps,
+     &A::vertical_speed_smoothed_mps,
+     &A::vertical_speed_smoothed_se_mps,
+     {&A::vertical_speed_smoothed_p25_mps, &A::vertical_speed_smoothed_p50_mps, &A::vertical_speed_smoothed_p75_mps}},
+    {&P::sv_mean_db,
+     &A::sv_mean_db,
+     &A::sv_mean_se_db,
+     {&A::sv_mean_p25_db, &A::sv_mean_p50_db, &A::sv_mean_p75_db},
+     true},
+}};
 
 struct Mean {
   double sum = 0.0;
@@ -98,6 +120,26 @@ void take_figure(const Bin& bin, std::size_t k, AvoidanceRow& out) {
   out.*figure.error = figure.decibels ? 10.0 / std::log(10.0) * error / mean.value() : error;
 }
 
+/// Of what the schools have, in between where a share falls between two of them: the usual rule of statistics programs
+/// (type 7 of Hyndman and Fan 1996).
+void take_quartiles(const Bin& bin, std::size_t k, AvoidanceRow& out) {
+  const Figure& figure = kFigures[k];
+  std::vector<double> values;
+  for (const auto& [number, school] : bin) {
+    const double value = school.figures[k].value();
+    const double told = figure.decibels ? db_from_linear(value) : value;
+    if (std::isfinite(told)) values.push_back(told);
+  }
+  if (values.empty()) return;
+  std::sort(values.begin(), values.end());
+  for (std::size_t i = 0; i < figure.quartiles.size(); ++i) {
+    const double at = 0.25 * static_cast<double>(i + 1) * static_cast<double>(values.size() - 1);
+    const auto below = static_cast<std::size_t>(at);
+    const std::size_t above = std::min(below + 1, values.size() - 1);
+    out.*figure.quartiles[i] = std::lerp(values[below], values[above], at - static_cast<double>(below));
+  }
+}
+
 AvoidanceRow row_of(const Axis& axis, std::int64_t number, const Bin& bin) {
   AvoidanceRow out;
   out.against = axis.name;
@@ -105,7 +147,10 @@ AvoidanceRow row_of(const Axis& axis, std::int64_t number, const Bin& bin) {
   out.to = out.from + axis.bin;
   out.n_schools = static_cast<std::int64_t>(bin.size());
   for (const auto& [school, found] : bin) out.n_pings += found.pings;
-  for (std::size_t k = 0; k < kFigures.size(); ++k) take_figure(bin, k, out);
+  for (std::size_t k = 0; k < kFigures.size(); ++k) {
+    take_figure(bin, k, out);
+    take_quartiles(bin, k, out);
+  }
   return out;
 }
 

@@ -14,6 +14,7 @@ namespace sonar {
 /// pings there: pings of one school tell of one school, and standard errors are those between schools.
 /// Left out are rejected schools, and pings in which a school lies within 25 m of where the ship sailed in the last ten
 /// minutes and reaches into the upper 25 m: what is seen there may be the ship's own wake.
+/// Quartiles are of the schools' means in the bin, of Sv in dB.
 /// products  as merged; rows joined by `continues` are one school
 /// out       bins with pings, by rising limits; errors unknown where a bin has one school
 [[nodiscard]] std::vector<AvoidanceRow> avoidance_table(std::span<const ObservationProduct> products);

@@ -76,6 +76,27 @@ TEST(Avoidance, DensitiesAreAveragedBeforeDecibels) {
   EXPECT_NEAR(rows.front().sv_mean_se_db, 10.0 / std::log(10.0) / 2.0, 1e-9);
 }
 
+// By numpy: np.percentile([1, 2, 4, 8], [25, 50, 75]) is 1.75, 3, 5; of [-50, -40] it is -47.5, -45, -42.5. The three pings of
+// the first school are one value, 1.
+TEST(Avoidance, QuartilesAreOfSchoolsAsNumpyHasThem) {
+  ObservationProduct product = product_of({1, 2, 3, 4});
+  for (const double away : {0.5, 0.5, 2.0}) add(product, 1, 10, away);
+  add(product, 2, 10, 8.0);
+  add(product, 3, 10, 2.0);
+  add(product, 4, 10, 4.0);
+  for (SchoolPingRow& row : product.school_pings) row.sv_mean_db = kUnknown;
+  product.school_pings[3].sv_mean_db = -40.0;
+  product.school_pings[4].sv_mean_db = -50.0;
+  const AvoidanceRow row = avoidance_table(std::vector{product}).front();
+  EXPECT_NEAR(row.speed_away_p25_mps, 1.75, 1e-12);
+  EXPECT_NEAR(row.speed_away_p50_mps, 3.0, 1e-12);
+  EXPECT_NEAR(row.speed_away_p75_mps, 5.0, 1e-12);
+  EXPECT_NEAR(row.sv_mean_p25_db, -47.5, 1e-9);
+  EXPECT_NEAR(row.sv_mean_p50_db, -45.0, 1e-9);
+  EXPECT_NEAR(row.sv_mean_p75_db, -42.5, 1e-9);
+  EXPECT_TRUE(std::isnan(row.speed_smoothed_p50_mps)) << "no ping tells it";
+}
+
 TEST(Avoidance, BinsOfTimeAndBearingGoBelowZero) {
   ObservationProduct product = product_of({1});
   auto& row = add(product, 1, 10, 0.5);

@@ -279,9 +279,9 @@ void FrequencyModel::take(const std::shared_ptr<const void>& detail) {
 
 std::string FrequencyModel::hint(PixelPoint at) const {
   if (!sight_ || !problem().empty()) return {};
-  const FrequencyChart::Place* place = sight_->chart.at(at, kReach_px * scale());
+  const PanelChart::Place* place = sight_->chart.at(at, kReach_px * scale());
   if (place == nullptr) return {};
-  const FrequencySeries& series = sight_->data.series[place->series];
+  const FrequencySeries& series = sight_->data.series[place->curve];
   return frequency_point_text(series, series.points[place->point]);
 }
 

@@ -16,7 +16,7 @@ namespace sonar {
 /// What the chart shows, and where.
 struct FrequencySight {
   FrequencyChartData data;
-  FrequencyChart chart;
+  PanelChart chart;
 };
 
 class HeardSchools;

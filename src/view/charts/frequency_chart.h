@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
-#include "view/axes.h"
-#include "view/frame_description.h"
+#include "view/charts/panel_chart.h"
 #include "view/theme.h"
 
 namespace sonar {
@@ -42,26 +38,13 @@ struct FrequencyChartData {
   std::vector<FrequencySeries> series;
 };
 
-struct FrequencyChart {
-  FrameDescription frame;
-  PlotFrame plot;
-  struct Place {
-    PixelPoint at;
-    std::size_t series = 0;
-    std::size_t point = 0;
-  };
-  std::vector<Place> places;  ///< of all points that are drawn
-  /// The nearest within reach; null without one.
-  [[nodiscard]] const Place* at(PixelPoint pixel, double reach_px) const;
-};
-
 /// What keeps a frequency response by fans from being one of the fish alone, in a sentence.
 [[nodiscard]] const char* frequency_caution();
 
 /// Sv over frequency: a line with points for each series, with bars from quartile to quartile.
 /// errors  bad_parameter: too small a picture; not_found: no point whose Sv is known
-[[nodiscard]] Result<FrequencyChart> frequency_chart(const FrequencyChartData& data, PixelSize size,
-                                                     const Theme& theme);
+/// out     one panel, whose curves are the series
+[[nodiscard]] Result<PanelChart> frequency_chart(const FrequencyChartData& data, PixelSize size, const Theme& theme);
 
 /// What is known of a point, in lines.
 [[nodiscard]] std::string frequency_point_text(const FrequencySeries& series, const FrequencyPoint& point);

@@ -28,17 +28,17 @@ TEST(FrequencyChart, PutsEachFanAtItsFrequencyAndItsSv) {
   const auto chart = frequency_chart(data, kSize, light_theme(kSize));
   ASSERT_TRUE(chart) << to_line(chart.error());
   ASSERT_EQ(chart->places.size(), 9U) << "one fan of the water is not above the background";
-  for (const FrequencyChart::Place& place : chart->places) {
-    const FrequencyPoint& point = data.series[place.series].points[place.point];
-    EXPECT_NEAR(chart->plot.x_at(place.at.x), point.frequency_khz, 1e-9);
-    EXPECT_NEAR(chart->plot.y_at(place.at.y), point.sv_db, 1e-9);
-    EXPECT_TRUE(inside(chart->plot.place, place.at));
+  for (const PanelChart::Place& place : chart->places) {
+    const FrequencyPoint& point = data.series[place.curve].points[place.point];
+    EXPECT_NEAR(chart->plots.front().x_at(place.at.x), point.frequency_khz, 1e-9);
+    EXPECT_NEAR(chart->plots.front().y_at(place.at.y), point.sv_db, 1e-9);
+    EXPECT_TRUE(inside(chart->plots.front().place, place.at));
     EXPECT_EQ(chart->at({place.at.x + 2.0, place.at.y}, 8.0), &place);
   }
   EXPECT_EQ(chart->at({1.0, 1.0}, 8.0), nullptr);
-  EXPECT_GT(chart->plot.y.first, chart->plot.y.last) << "loud is above";
-  EXPECT_LE(chart->plot.y.last, -70.0);
-  EXPECT_GE(chart->plot.y.first, -38.0) << "quartiles are in sight";
+  EXPECT_GT(chart->plots.front().y.first, chart->plots.front().y.last) << "loud is above";
+  EXPECT_LE(chart->plots.front().y.last, -70.0);
+  EXPECT_GE(chart->plots.front().y.first, -38.0) << "quartiles are in sight";
 }
 
 TEST(FrequencyChart, SaysWhatKeepsItFromBeingTheFishAlone) {
