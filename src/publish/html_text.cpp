@@ -5,15 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
-#include "base/number_text.h"
 #include "base/utf8.h"
 #include "io/column_words.h"
+#include "publish/report_cells.h"
 #include "render/draw_frame.h"
 
 namespace sonar {
@@ -23,32 +20,9 @@ constexpr double kPixelsOfPrint = 2.0;  ///< about 200 dots an inch over an A4 p
 
 unsigned byte_at(std::string_view text, std::size_t i) { return static_cast<unsigned char>(text[i]); }
 
-/// Empty where the field is no plain number.
-std::optional<double> number_in(std::string_view field) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  return error == std::errc() && end == field.data() + field.size() ? std::optional(value) : std::nullopt;
-}
-
-/// Five digits are more than any figure has; whole numbers stay whole, and places to a metre.
-std::string number_text(std::string_view column, std::string_view field, double value) {
-  if (field.find_first_of(".eE") == std::string_view::npos) return std::string(field);
-  const bool place = column.ends_with("latitude") || column.ends_with("longitude");
-  return place ? fmt::format("{:.5f}", value) : fmt::format("{:.5g}", value);
-}
-
 std::string cell(std::string_view column, std::string_view field) {
-  const auto number = number_in(field);
-  if (!number) return "<td>" + html_escaped(field) + "</td>";
-  return "<td class=\"n\">" + html_escaped(number_text(column, field, *number)) + "</td>";
-}
-
-std::vector<std::size_t> columns_with_values(const CsvTable& table) {
-  std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < table.header.size(); ++i) {
-    if (std::ranges::any_of(table.records, [&](const CsvRecord& r) { return !r.fields[i].empty(); })) out.push_back(i);
-  }
-  return out;
+  const ReportCell shown = report_cell(column, field);
+  return (shown.number ? "<td class=\"n\">" : "<td>") + html_escaped(shown.text) + "</td>";
 }
 
 std::string head_cell(const std::string& name) {
@@ -132,9 +106,8 @@ std::string html_table(const CsvTable& table, std::string_view caption, std::siz
     out += "</tr>\n";
   }
   out += "</tbody></table></div>\n";
-  if (rows < table.records.size()) {
-    out += html_paragraph(fmt::format("The first {} of {} rows.", grouped(rows), grouped(table.records.size())));
-  }
+  const std::string left_out = rows_left_out(table, most);
+  if (!left_out.empty()) out += html_paragraph(left_out);
   return out;
 }
 
