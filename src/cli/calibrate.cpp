@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/chosen_recipe.h"
+#include "cli/described_flags.h"
 #include "cli/exit_codes.h"
 #include "cli/file_to_write.h"
 #include "cli/log.h"
@@ -13,10 +14,10 @@
 #include "cli/numbers.h"
 #include "cli/progress.h"
 #include "cli/verb.h"
-#include "io/atomic_file.h"
 #include "io/index_cache.h"
 #include "pipeline/calibrate/sphere_report.h"
 #include "pipeline/survey/survey.h"
+#include "publish/setup_pictures.h"
 
 namespace sonar {
 namespace {
@@ -29,6 +30,9 @@ struct CalibrateArguments {
   std::string recipe;
   std::string sound_speed;
   std::string out;
+  std::string picture;
+  SphereLook look;
+  std::vector<DescribedFlags::Made> look_flags;
   bool beams = false;
   bool json = false;
   int jobs = 0;
@@ -43,44 +47,22 @@ std::vector<double> numbers_of(const std::string& text) {
   return numbers;
 }
 
-/// Measured water where it was told, else the raw files' sound speed with the density of the recipe's water.
-Result<WaterAround> water_around(const CalibrateArguments& arguments, const Recipe& recipe, const SurveyFiles& survey) {
-  WaterProperties water = recipe.calibration.water;
-  if (!arguments.water.empty()) {
-    const std::vector<double> given = numbers_of(arguments.water);
-    water.temperature_c = given[0];
-    water.salinity_psu = given[1];
-    water.depth_m = given[2];
-    if (auto valid = validate(water); !valid) {
-      return fail(ErrorCode::usage, fmt::format("--water {}: {}", arguments.water, valid.error().text));
-    }
-    return WaterAround{sound_speed_mackenzie(water), sea_water_density(water)};
-  }
-  for (const ObservationFiles& observation : survey.observations) {
-    if (observation.grid) return WaterAround{observation.sound_speed_mps, sea_water_density(water)};
-  }
-  return WaterAround{sound_speed_mackenzie(water), sea_water_density(water)};
-}
-
-Result<SphereRunParams> sphere_params(const CalibrateArguments& arguments, const Recipe& recipe,
-                                      const SurveyFiles& survey) {
-  SphereRunParams params;
-  auto sphere = named_sphere(arguments.sphere);
-  if (!sphere) return fail(ErrorCode::usage, "--sphere: " + sphere.error().text);
-  params.sphere = *sphere;
+SphereChoice choice_of(const CalibrateArguments& arguments, const Recipe& recipe) {
+  SphereChoice choice;
+  choice.sphere = arguments.sphere;
   if (!arguments.range.empty()) {
     const std::vector<double> given = numbers_of(arguments.range);
-    if (!(given[0] >= 0.0 && given[0] < given[1])) {
-      return fail(ErrorCode::usage,
-                  fmt::format("--range {}: expected the nearer and the farther range in metres", arguments.range));
-    }
-    params.range_from_m = given[0];
-    params.range_to_m = given[1];
+    choice.range_from_m = given[0];
+    choice.range_to_m = given[1];
   }
-  auto water = water_around(arguments, recipe, survey);
-  if (!water) return pass_on(water);
-  params.water = *water;
-  return params;
+  if (!arguments.water.empty()) {
+    const std::vector<double> given = numbers_of(arguments.water);
+    choice.water = recipe.calibration.water;
+    choice.water->temperature_c = given[0];
+    choice.water->salinity_psu = given[1];
+    choice.water->depth_m = given[2];
+  }
+  return choice;
 }
 
 Result<SphereCalibration> calibrated(const CalibrateArguments& arguments, SphereRunParams& params, Work& work) {
@@ -90,11 +72,14 @@ Result<SphereCalibration> calibrated(const CalibrateArguments& arguments, Sphere
   const auto survey = open_survey(paths, recipe->survey, recipe->navigation, IndexCache::of_user(), work);
   if (!survey) return pass_on(survey);
   if (auto files = require_files(*survey, paths); !files) return pass_on(files);
-  auto chosen = sphere_params(arguments, *recipe, *survey);
-  if (!chosen) return pass_on(chosen);
+  auto chosen = sphere_run_params(choice_of(arguments, *recipe), recipe->calibration.water, *survey);
+  if (!chosen) return fail(chosen.error().code, "--" + chosen.error().text);  // it begins with what is wrong
   params = *chosen;
-  const auto outside = require_outside_raw(*survey, std::filesystem::absolute(arguments.out).parent_path());
-  if (!outside) return pass_on(outside);
+  for (const std::string& file : {arguments.out, arguments.picture}) {
+    if (file.empty()) continue;
+    const auto outside = require_outside_raw(*survey, std::filesystem::absolute(file).parent_path());
+    if (!outside) return pass_on(outside);
+  }
   return calibrate_by_sphere(*survey, recipe->calibration, params, work);
 }
 
@@ -102,7 +87,10 @@ int run_calibrate(const CalibrateArguments& arguments) {
   if (auto sphere = named_sphere(arguments.sphere); !sphere) {
     return report({ErrorCode::usage, "--sphere: " + sphere.error().text, {}});
   }
-  if (auto place = require_place(arguments.out); !place) return report(place.error());
+  for (const std::string& file : {arguments.out, arguments.picture}) {
+    if (file.empty()) continue;
+    if (auto place = require_place(file); !place) return report(place.error());
+  }
   Work work(arguments.jobs);
   const CancelOnInterrupt watch(work);
   show_progress(work);
@@ -110,7 +98,11 @@ int run_calibrate(const CalibrateArguments& arguments) {
   const auto made = calibrated(arguments, params, work);
   clear_progress();
   if (!made) return report(made.error());
-  if (auto written = write_file(arguments.out, calibration_csv(*made)); !written) return report(written.error());
+  if (auto written = write_calibration(*made, arguments.out); !written) return report(written.error());
+  if (!arguments.picture.empty()) {
+    const auto drawn = write_sphere_picture(sphere_chart_data(*made, params), arguments.look, arguments.picture);
+    if (!drawn) return report(drawn.error());
+  }
   if (arguments.json) {
     fmt::print("{}", calibration_json_text(*made, params));
   } else {
@@ -142,6 +134,13 @@ void add_calibrate(CLI::App& app, VerbRunner& run) {
   verb->add_option("--recipe", arguments->recipe, "Parameters of absorption and ranges (see sonarx recipe)")
       ->check(named_file());
   verb->add_option("--sound-speed", arguments->sound_speed, kSoundSpeedHelp)->check(named_path("X|FILE"));
+  CLI::Option* picture =
+      verb->add_option("--picture", arguments->picture,
+                       "Picture to write too: map of the beams, residuals, before and after (PNG, SVG, PDF)");
+  picture->check(named_file());
+  DescribedFlags flags(*verb, "Picture", "", arguments->look_flags);
+  describe(flags, arguments->look);
+  for (const DescribedFlags::Made& made : arguments->look_flags) verb->get_option(made.flag)->needs(picture);
   CLI::Option* beams = verb->add_flag("--beams", arguments->beams, "Print a line for each beam too");
   verb->add_flag("--json", arguments->json, "Print one JSON object")->excludes(beams);
   verb->add_option("-j,--jobs", arguments->jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));

@@ -31,6 +31,7 @@
 #include "gui/preferences_dialog.h"
 #include "gui/questions.h"
 #include "gui/rows_view.h"
+#include "gui/setup_dialogs.h"
 #include "gui/start_page.h"
 #include "gui/status_line.h"
 #include "gui/tool_bar.h"
@@ -191,6 +192,8 @@ void MainWindow::answer() {
     biomass_->come_to_front();
   };
   app_.dialogs.figure = [this](FigureModel& figure) { compose_figure(*this, app_, figure); };
+  app_.dialogs.sphere = [this](SpherePage& page) { show_sphere_page(*this, app_, page); };
+  app_.dialogs.setup = [this](SetupPage& page) { show_setup_page(*this, app_, page); };
   app_.dialogs.show_keys = [this] { show_key_sheet(*this, app_.actions); };
   app_.dialogs.show_about = [this] { QMessageBox::about(this, "Sonar Explorer", about_text(app_)); };
   app_.dialogs.reset_layout = [this] { lay_out_docks(*this); };

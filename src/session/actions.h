@@ -18,6 +18,8 @@ namespace sonar {
 class FigureModel;
 class RecipeEditor;
 class Rows;
+class SetupPage;
+class SpherePage;
 struct PanelSection;
 
 /// Something that a user can ask for: the one list from which menus, keys, buttons and the sheet of keys are made.
@@ -96,6 +98,8 @@ struct Dialogs {
   std::function<void(FigureModel& figure)> figure;                 ///< lets a human compose a page and write it
   std::function<void(const std::string& title, Rows& rows)> rows;  ///< shows a table to look at
   std::function<void(const std::string& text)> copy;
+  std::function<void(SpherePage& page)> sphere;                      ///< the calibration page
+  std::function<void(SetupPage& page)> setup;                        ///< the page of the setup check
   std::function<void()> show_batch;                                  ///< the window of surveys to be run
   std::function<void()> show_integration;                            ///< the page of echo integration
   std::function<void()> show_biomass;                                ///< the page of numbers and biomass

@@ -259,6 +259,7 @@ void Document::take(SurveyRead read, const std::optional<std::pair<std::size_t, 
 }
 
 void Document::use_recipe(Recipe recipe) {
+  if (survey() != nullptr) recipe_before_ = this->recipe();
   asked_recipe_ = std::make_shared<const Recipe>(std::move(recipe));
   if (opening_) return read(*opening_);
   if (survey() == nullptr) return;

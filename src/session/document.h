@@ -73,10 +73,13 @@ class Document {
   /// a run opens the survey that it was made of, under the run's recipe and with the run's schools.
   /// first  done before, in the background too: what makes the files, say; empty = nothing
   void open(std::vector<std::filesystem::path> paths, std::function<Result<void>(Work&)> first = {}) {
+    recipe_before_.reset();
     read({std::move(paths), std::move(first), std::nullopt});
   }
   /// Opens the survey under another recipe, and keeps that beside its journals; before one is open, the next.
   void use_recipe(Recipe recipe);
+  /// Of the survey that is open, before use_recipe() last changed it: what takes that back. Empty = it was not changed.
+  [[nodiscard]] const std::optional<Recipe>& recipe_before() const { return recipe_before_; }
   /// Takes the survey with what came since; what is looked at and what was chosen stays. False, and nothing is taken, where
   /// it is not the same survey with more pings and observations behind.
   bool grow(std::shared_ptr<const SurveyFiles> survey) { return survey_->grow(std::move(survey)); }
@@ -226,6 +229,7 @@ class Document {
   DocumentOptions options_;
   OpeningPtr opening_;                          ///< null = nothing is being read
   std::shared_ptr<const Recipe> asked_recipe_;  ///< that the next survey is opened under
+  std::optional<Recipe> recipe_before_;
   Listeners<DocumentChange> changes_;
   std::shared_ptr<const SurveyFiles> glance_;
   std::vector<std::string> notices_;

@@ -19,6 +19,8 @@
 #include "session/open_demo.h"
 #include "session/recipe_editor.h"
 #include "session/recipe_preview.h"
+#include "session/setup/setup_page.h"
+#include "session/setup/sphere_page.h"
 
 namespace sonar {
 namespace {
@@ -156,6 +158,23 @@ void change_recipe(AppModel& app) {
                     : fmt::format("the recipe differs from the default one in {}", count_of(changed, "parameter")));
 }
 
+void take_recipe_back(AppModel& app) {
+  if (app.live->on()) app.live->follow_next();
+  app.workspace.document.use_recipe(Recipe(*app.workspace.document.recipe_before()));
+}
+
+void show_sphere_page(AppModel& app) {
+  if (!app.dialogs.sphere) return;
+  SpherePage page(app);
+  app.dialogs.sphere(page);
+}
+
+void show_setup_page(AppModel& app) {
+  if (!app.dialogs.setup) return;
+  SetupPage page(app);
+  app.dialogs.setup(page);
+}
+
 void add_calibration(AppModel& app) {
   const auto with_ping = [&app] { return app.workspace.document.shown() != nullptr; };
   app.actions.add({.id = "file.recipe",
@@ -165,6 +184,28 @@ void add_calibration(AppModel& app) {
                    .tip = "Parameters of noise removal, detection and measuring: the survey is opened anew under them, "
                           "decisions stay",
                    .run = [&app] { change_recipe(app); }});
+  app.actions.add({.id = "file.recipe_before",
+                   .menu = kFile,
+                   .text = "Recipe before",
+                   .keys = {},
+                   .tip = "Open the survey under the recipe that it had before the last change of it; once more brings "
+                          "the change back",
+                   .run = [&app] { take_recipe_back(app); },
+                   .enabled = [&app] { return app.workspace.document.recipe_before().has_value(); }});
+  app.actions.add({.id = "file.setup_check",
+                   .menu = kFile,
+                   .text = "Setup check...",
+                   .keys = {},
+                   .tip = "Mounting angle and sound speed that the schools' mean speeds on each course leg ask for",
+                   .run = [&app] { show_setup_page(app); },
+                   .enabled = with_ping});
+  app.actions.add({.id = "file.sphere",
+                   .menu = kFile,
+                   .text = "Calibrate by a sphere...",
+                   .keys = {},
+                   .tip = "Fit gain, Sa correction, psi and widths of each beam to a sphere run; write the table, or "
+                          "measure with it",
+                   .run = [&app] { show_sphere_page(app); }});
   app.actions.add(
       {.id = "file.calibration",
        .menu = kFile,

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -17,13 +16,6 @@ namespace sonar {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Seen {
-  std::vector<SeenSpeed> speeds;
-  std::vector<double> sound_speeds_mps;
-  std::optional<Recipe> recipe;
-  std::string recipe_hash;
-};
 
 /// Rows stand by school and ping.
 void take_schools(const ObservationProduct& product, const SummariseParams& params, std::vector<SeenSpeed>& speeds) {
@@ -39,56 +31,54 @@ void take_schools(const ObservationProduct& product, const SummariseParams& para
   }
 }
 
-Result<void> take_product(const ObservationProduct& product, const fs::path& file, Seen& seen) {
+}  // namespace
+
+Result<void> SetupSeen::take(const ObservationProduct& product, const std::string& where) {
   if (!product.grid) return {};
-  if (!seen.recipe) {
-    auto recipe = recipe_from_text(product.recipe_json);
-    if (!recipe) return fail(recipe.error().code, recipe.error().text, {.file = file.string()});
-    seen.recipe = std::move(*recipe);
-    seen.recipe_hash = product.recipe_hash;
-  } else if (product.recipe_hash != seen.recipe_hash) {
-    return fail(ErrorCode::mismatch, "is of another recipe than the observations before", {.file = file.string()});
+  if (!navigation_) {
+    const auto recipe = recipe_from_text(product.recipe_json);
+    if (!recipe) return fail(recipe.error().code, recipe.error().text, {.file = where});
+    navigation_ = recipe->navigation;
+    summarise_ = recipe->summarise;
+    recipe_hash_ = product.recipe_hash;
+  } else if (product.recipe_hash != recipe_hash_) {
+    return fail(ErrorCode::mismatch, "is of another recipe than the observations before", {.file = where});
   }
-  seen.sound_speeds_mps.push_back(product.grid->sound_speed_mps);
-  take_schools(product, seen.recipe->summarise, seen.speeds);
+  sound_speeds_mps_.push_back(product.grid->sound_speed_mps);
+  take_schools(product, summarise_, speeds_);
   return {};
 }
 
-Result<Seen> seen_in(const fs::path& out, Work& work) {
-  const auto files = product_files(out);
-  if (!files) return pass_on(files);
-  if (files->empty()) return fail(ErrorCode::not_found, "there are no products in this folder", {.file = out.string()});
-  Seen seen;
-  for (const fs::path& file : *files) {
-    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
-    const auto product = read_product(file);
-    if (!product) return pass_on(product);
-    if (auto taken = take_product(*product, file, seen); !taken) return pass_on(taken);
+Result<SetupReport> SetupSeen::report(const std::string& where) const {
+  if (!navigation_) {
+    return fail(ErrorCode::not_found, "no observation here has a grid of fans and beams", {.file = where});
   }
-  if (!seen.recipe) {
-    return fail(ErrorCode::not_found, "no observation in this folder has a grid of fans and beams",
-                {.file = out.string()});
-  }
-  return seen;
-}
-
-}  // namespace
-
-Result<SetupReport> setup_report(const fs::path& out, Work& work) {
-  auto seen = seen_in(out, work);
-  if (!seen) return pass_on(seen);
-  auto check = check_setup(std::move(seen->speeds));
-  if (!check) return fail(check.error().code, check.error().text, {.file = out.string()});
+  auto check = check_setup(speeds_);
+  if (!check) return fail(check.error().code, check.error().text, {.file = where});
   SetupReport report;
   report.check = std::move(*check);
-  report.mounting_azimuth_deg = seen->recipe->navigation.mounting_azimuth_deg;
-  report.sound_speed_mps = middle_of(std::move(seen->sound_speeds_mps));
+  report.mounting_azimuth_deg = navigation_->mounting_azimuth_deg;
+  report.sound_speed_mps = middle_of(sound_speeds_mps_);
   if (!report.check.drift_known) return report;
   const double scale = report.check.range_scale;
   report.proposed_mounting_azimuth_deg = wrap_360(report.mounting_azimuth_deg - report.check.bearing_error_deg);
   report.proposed_sound_speed_mps = report.sound_speed_mps / scale;
   report.proposed_sound_speed_se_mps = report.proposed_sound_speed_mps * report.check.range_scale_se / scale;
   return report;
+}
+
+Result<SetupReport> setup_report(const fs::path& out, Work& work) {
+  const auto files = product_files(out);
+  if (!files) return pass_on(files);
+  if (files->empty()) return fail(ErrorCode::not_found, "there are no products in this folder", {.file = out.string()});
+  SetupSeen seen;
+  for (const fs::path& file : *files) {
+    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+    const auto product = read_product(file);
+    if (!product) return pass_on(product);
+    if (auto taken = seen.take(*product, file.string()); !taken) return pass_on(taken);
+  }
+  return seen.report(out.string());
 }
 
 std::string setup_text(const SetupReport& report) {

@@ -2,10 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "base/result.h"
 #include "base/work.h"
+#include "io/ping_navigation.h"
+#include "model/product.h"
 #include "school/measure/setup_check.h"
 
 namespace sonar {
@@ -18,6 +22,23 @@ struct SetupReport {
   double sound_speed_mps = 0.0;                     ///< middle of the observations'
   double proposed_sound_speed_mps = kUnknown;
   double proposed_sound_speed_se_mps = kUnknown;
+};
+
+/// Takes the schools of products, one product after the other, and reports. Rejected schools are left out.
+class SetupSeen {
+ public:
+  /// where  names the product
+  /// errors  mismatch: it is of another recipe than those before; format: its recipe is none
+  [[nodiscard]] Result<void> take(const ObservationProduct& product, const std::string& where);
+  /// errors  not_found: no product with a grid was taken, or as check_setup(). where  names what the products are of
+  [[nodiscard]] Result<SetupReport> report(const std::string& where) const;
+
+ private:
+  std::vector<SeenSpeed> speeds_;
+  std::vector<double> sound_speeds_mps_;
+  std::optional<NavigationParams> navigation_;
+  SummariseParams summarise_;
+  std::string recipe_hash_;
 };
 
 /// From the products of a work folder alone; rejected schools are left out.

@@ -150,6 +150,29 @@ std::size_t SphereCalibration::crossed() const {
       std::count_if(beams.begin(), beams.end(), [](const CalibratedBeam& b) { return b.crossed; }));
 }
 
+Result<SphereRunParams> sphere_run_params(const SphereChoice& choice, const WaterProperties& recipe_water,
+                                          const SurveyFiles& survey) {
+  const auto sphere = named_sphere(choice.sphere);
+  if (!sphere) return fail(ErrorCode::usage, sphere.error().text);
+  SphereRunParams params{*sphere, {}, choice.range_from_m, choice.range_to_m};
+  if (!(params.range_from_m >= 0.0 && params.range_from_m < params.range_to_m)) {
+    return fail(ErrorCode::usage, fmt::format("range {},{}: expected the nearer and the farther range in metres",
+                                              params.range_from_m, params.range_to_m));
+  }
+  const WaterProperties& water = choice.water.value_or(recipe_water);
+  if (auto valid = validate(water); !valid && choice.water) {
+    return fail(ErrorCode::usage, fmt::format("water {},{},{}: {}", water.temperature_c, water.salinity_psu,
+                                              water.depth_m, valid.error().text));
+  }
+  params.water = {sound_speed_mackenzie(water), sea_water_density(water)};
+  const auto with_grid = std::find_if(survey.observations.begin(), survey.observations.end(),
+                                      [](const ObservationFiles& one) { return one.grid.has_value(); });
+  if (!choice.water && with_grid != survey.observations.end()) {
+    params.water.sound_speed_mps = with_grid->sound_speed_mps;
+  }
+  return params;
+}
+
 Result<SphereCalibration> calibrate_by_sphere(const SurveyFiles& survey, const CalibrationParams& calibration,
                                               const SphereRunParams& params, Work& work) {
   SphereCalibration out;

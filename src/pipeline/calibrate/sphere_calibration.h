@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,19 @@
 #include "signal/beam_pattern_fit.h"
 
 namespace sonar {
+
+/// A sphere run as a human names it.
+struct SphereChoice {
+  std::string sphere = "wc38.1";  ///< as named_sphere() takes it
+  double range_from_m = 10.0;     ///< the sphere lies between these
+  double range_to_m = 1e9;
+  std::optional<WaterProperties> water = {};  ///< measured around the sphere; empty = the sound speed of the raw files
+};
+/// What is meant by it. Without measured water the sound speed is that of the first observation with fans of beams (of the
+/// recipe's water where there is none), and the density that of the recipe's water.
+/// errors  usage: "sphere ...", "range ...", "water ...": no such sphere, ranges that do not rise, water that is none
+[[nodiscard]] Result<SphereRunParams> sphere_run_params(const SphereChoice& choice, const WaterProperties& recipe_water,
+                                                        const SurveyFiles& survey);
 
 /// One beam before and after.
 struct CalibratedBeam {

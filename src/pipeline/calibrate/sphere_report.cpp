@@ -11,6 +11,7 @@
 
 #include "base/middle.h"
 #include "base/number_text.h"
+#include "io/atomic_file.h"
 #include "io/csv_table.h"
 #include "pipeline/survey/calibration_json.h"
 
@@ -33,18 +34,6 @@ std::string spans(const std::vector<int>& numbers) {
     i = last + 1;
   }
   return text;
-}
-
-double rms_of(const SphereCalibration& made, const CalibratedBeam& beam) {
-  double sum = 0.0;
-  int n = 0;
-  for (const std::size_t i : beam.levels) {
-    const double residual = made.fit.residual_db[i];
-    if (!std::isfinite(residual)) continue;
-    sum += residual * residual;
-    ++n;
-  }
-  return n > 0 ? std::sqrt(sum / n) : kUnknown;
 }
 
 /// What of a fan's beams was crossed; changes are medians.
@@ -121,7 +110,7 @@ std::string beam_lines(const SphereCalibration& made) {
         "+- {:.2f} deg {:.2f} dB\n",
         a.channel, b.fan, b.beam, b.hits, a.gain_db, a.gain_db_se, a.sa_correction_db, a.sa_correction_db_se, a.psi_db,
         a.psi_db_se, a.width_along_deg, a.width_along_deg_se, a.width_athwart_deg, a.width_athwart_deg_se,
-        rms_of(made, b));
+        residual_rms_db(made, b));
   }
   return text;
 }
@@ -139,20 +128,46 @@ std::string fans_near_null(const SphereCalibration& made) {
       spans(fans));
 }
 
+/// By channel.
+std::vector<BeamCalibration> lines_of(const SphereCalibration& made) {
+  std::vector<BeamCalibration> lines;
+  for (const CalibratedBeam& beam : made.beams) {
+    if (beam.crossed) lines.push_back(beam.after);
+  }
+  std::sort(lines.begin(), lines.end(),
+            [](const BeamCalibration& a, const BeamCalibration& b) { return a.channel < b.channel; });
+  return lines;
+}
+
 }  // namespace
+
+double residual_rms_db(const SphereCalibration& made, const CalibratedBeam& beam) {
+  double sum = 0.0;
+  int n = 0;
+  for (const std::size_t i : beam.levels) {
+    const double residual = made.fit.residual_db[i];
+    if (!std::isfinite(residual)) continue;
+    sum += residual * residual;
+    ++n;
+  }
+  return n > 0 ? std::sqrt(sum / n) : kUnknown;
+}
+
+Result<void> write_calibration(const SphereCalibration& made, const std::filesystem::path& file) {
+  return write_file(file, calibration_csv(made));
+}
+
+CalibrationParams taken_calibration(const SphereCalibration& made, CalibrationParams over) {
+  over.beams = lines_of(made);
+  over.psi = PsiSource::table;
+  return over;
+}
 
 std::string calibration_csv(const SphereCalibration& made) {
   std::string text = "channel";
   for (const std::string_view column : kColumns) text += fmt::format(",{}", column);
   text += '\n';
-  std::vector<const CalibratedBeam*> crossed;
-  for (const CalibratedBeam& beam : made.beams) {
-    if (beam.crossed) crossed.push_back(&beam);
-  }
-  std::sort(crossed.begin(), crossed.end(),
-            [](const CalibratedBeam* a, const CalibratedBeam* b) { return a->after.channel < b->after.channel; });
-  for (const CalibratedBeam* beam : crossed) {
-    BeamCalibration after = beam->after;
+  for (BeamCalibration& after : lines_of(made)) {
     text += fmt::format("{}", after.channel);
     for (const std::string_view column : kColumns) {
       columns(
@@ -222,7 +237,7 @@ std::string calibration_json_text(const SphereCalibration& made, const SphereRun
                         {"before", beams_to_json({b.before})[0]}};
     if (b.crossed) {
       beam["after"] = beams_to_json({b.after})[0];
-      beam["residual_rms_db"] = rms_of(made, b);
+      beam["residual_rms_db"] = residual_rms_db(made, b);
       beam["off_across_deg"] = b.off_across_deg;
       beam["off_up_deg"] = b.off_up_deg;
     }
