@@ -10,6 +10,7 @@
 
 #include "base/time.h"
 #include "model/school_descriptors.h"
+#include "model/school_errors.h"
 
 namespace sonar {
 
@@ -157,6 +158,8 @@ struct SchoolRow : SchoolDescriptors {
   double current_se_mps = kUnknown;
   // Refraction: known with a sound speed profile only.
   double depth_error_m = kUnknown;
+  /// Standard errors, in the order of kErrorColumns.
+  FigureValues se = unknown_figures();
 };
 
 /// Time column: ISO 8601 in text, empty for 0.
@@ -292,6 +295,8 @@ void columns(Visitor& v, SchoolRow& r) {
   v("current_se_mps", "m s-1", r.current_se_mps);
   // Refraction.
   v("depth_error_m", "m", r.depth_error_m);
+  // Standard errors of the figures above.
+  for (std::size_t i = 0; i < kErrorCount; ++i) v(kErrorColumns[i].name, kErrorColumns[i].unit, r.se[i]);
 }
 
 /// Columns of movement, of both tables.
@@ -340,7 +345,9 @@ inline constexpr std::array<std::string_view, 26> kMovementColumns{"speed_smooth
   return std::find(std::begin(kLater), std::end(kLater), column) != std::end(kLater) ||
          std::any_of(kDescriptorColumns.begin(), kDescriptorColumns.end(),
                      [&](const DescriptorColumn& one) { return one.name == column; }) ||
-         std::find(kMovementColumns.begin(), kMovementColumns.end(), column) != kMovementColumns.end();
+         std::find(kMovementColumns.begin(), kMovementColumns.end(), column) != kMovementColumns.end() ||
+         std::any_of(kErrorColumns.begin(), kErrorColumns.end(),
+                     [&](const ErrorColumn& one) { return one.name == column; });
 }
 
 }  // namespace sonar
