@@ -30,8 +30,9 @@ template <class Visitor>
 void describe(Visitor& v, ErrorParams& p) {
   v.field(
       "enabled", p.enabled,
-      {.text = "Work out the standard error of each figure of a school by measuring it again under other fading and "
-               "other thresholds; switch it off to save the time, which is about twenty measurings of a school."});
+      {.text =
+           "Work out the standard error of each figure of a school by measuring it again under other fading and other "
+           "thresholds; switch it off to save the time, which is about six times that of measuring."});
   v.field("threshold_db", p.threshold_db,
           {.unit = "dB",
            .min = 0,
@@ -45,8 +46,8 @@ void describe(Visitor& v, ErrorParams& p) {
        .max = 20,
        .text =
            "Standard error of the calibration of Sv, gain and equivalent beam angle together, where the calibration "
-           "table tells none: 0.1 dB is the best that a sphere gives (Foote et al. 1987), 0.5 dB common at sea "
-           "(Demer et al. 2015)."});
+           "table tells none. The default is an assumption, not a measurement; set it to what the sphere runs of "
+           "your sonar scatter by."});
   v.field("sound_speed_percent", p.sound_speed_percent,
           {.unit = "%",
            .min = 0,
