@@ -10,6 +10,7 @@
 
 #include "base/time.h"
 #include "model/school_descriptors.h"
+#include "model/school_errors.h"
 
 namespace sonar {
 
@@ -169,6 +170,8 @@ struct SchoolRow : SchoolDescriptors {
   double extinction_share_low = kUnknown;
   double extinction_share_high = kUnknown;
   double extinction_corrected = kUnknown;
+  /// Standard errors, in the order of kErrorColumns.
+  FigureValues se = unknown_figures();
 };
 
 /// Time column: ISO 8601 in text, empty for 0.
@@ -316,6 +319,8 @@ void columns(Visitor& v, SchoolRow& r) {
   v("extinction_share_low", "1", r.extinction_share_low);
   v("extinction_share_high", "1", r.extinction_share_high);
   v("extinction_corrected", "1", r.extinction_corrected);
+  // Standard errors of the figures above.
+  for (std::size_t i = 0; i < kErrorCount; ++i) v(kErrorColumns[i].name, kErrorColumns[i].unit, r.se[i]);
 }
 
 /// Columns of movement, of both tables.
@@ -369,7 +374,9 @@ inline constexpr std::array<std::string_view, 26> kMovementColumns{"speed_smooth
   return std::find(std::begin(kLater), std::end(kLater), column) != std::end(kLater) ||
          std::any_of(kDescriptorColumns.begin(), kDescriptorColumns.end(),
                      [&](const DescriptorColumn& one) { return one.name == column; }) ||
-         std::find(kMovementColumns.begin(), kMovementColumns.end(), column) != kMovementColumns.end();
+         std::find(kMovementColumns.begin(), kMovementColumns.end(), column) != kMovementColumns.end() ||
+         std::any_of(kErrorColumns.begin(), kErrorColumns.end(),
+                     [&](const ErrorColumn& one) { return one.name == column; });
 }
 
 }  // namespace sonar

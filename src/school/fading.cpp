@@ -21,12 +21,17 @@ double spacing_deg(const std::vector<double>& angles, int at) {
   return std::abs(angles[static_cast<std::size_t>(i)] - angles[static_cast<std::size_t>(i) - 1]);
 }
 
-double voxels_alike(const BeamGrid& grid, double sample_m, double pulse_m, int row) {
+VoxelsAlike voxels_alike_each_way(const BeamGrid& grid, double sample_m, double pulse_m, int row) {
   const double vertical = grid.vertical_width_deg[static_cast<std::size_t>(row)];
   const double horizontal = grid.horizontal_width_deg[static_cast<std::size_t>(row)];
   const double fan_deg = spacing_deg(grid.elevation_deg, row / grid.beams());
   const double beam_deg = spacing_deg(grid.azimuth_deg, row % grid.beams());
-  return alike(kTwoWay * vertical, fan_deg) * alike(kTwoWay * horizontal, beam_deg) * alike(pulse_m, sample_m);
+  return {alike(kTwoWay * vertical, fan_deg), alike(kTwoWay * horizontal, beam_deg), alike(pulse_m, sample_m)};
+}
+
+double voxels_alike(const BeamGrid& grid, double sample_m, double pulse_m, int row) {
+  const VoxelsAlike each = voxels_alike_each_way(grid, sample_m, pulse_m, row);
+  return each.fans * each.beams * each.samples;
 }
 
 }  // namespace sonar

@@ -16,5 +16,12 @@ namespace sonar {
 /// pulse_m   extent of the pulse along range, c tau / 2
 /// row       fan * beams + beam
 [[nodiscard]] double voxels_alike(const BeamGrid& grid, double sample_m, double pulse_m, int row);
+/// The same each way; voxels_alike() is their product.
+struct VoxelsAlike {
+  double fans = 1.0;
+  double beams = 1.0;
+  double samples = 1.0;
+};
+[[nodiscard]] VoxelsAlike voxels_alike_each_way(const BeamGrid& grid, double sample_m, double pulse_m, int row);
 
 }  // namespace sonar

@@ -93,6 +93,12 @@ ObservationProduct state_product_of_results(const Engine& engine, const JournalS
     }
   }
   summarise_schools(schools, engine.recipe(), product);
+  // Standard errors need the pings: those of a school that is as it was measured still hold.
+  for (SchoolRow& school : product.schools) {
+    for (const SchoolRow& before : measured.schools) {
+      if (before.school_id == school.school_id && figures_of(before) == figures_of(school)) school.se = before.se;
+    }
+  }
   join_at_reach(product, engine.recipe().merge);
   return product;
 }

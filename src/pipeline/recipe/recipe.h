@@ -19,6 +19,7 @@
 #include "school/grow/propagate_paper.h"
 #include "school/grow/propagate_tracked.h"
 #include "school/measure/measure_params.h"
+#include "school/measure/school_errors.h"
 #include "school/measure/summarise.h"
 #include "school/measure/water_current.h"
 #include "school/seabed/seabed.h"
@@ -149,6 +150,7 @@ struct Recipe {
   TrackParams track;
   MeasureParams measure;
   SummariseParams summarise;
+  ErrorParams errors;
   CurrentParams currents;
   MergeParams merge;
   GrowParams grow;
@@ -175,6 +177,7 @@ void describe(Visitor& v, Recipe& r) {
   v.group("track", r.track, "schools followed over pings");
   v.group("measure", r.measure, "a school's figures in one ping");
   v.group("summarise", r.summarise, "a school's figures over its pings");
+  v.group("errors", r.errors, "standard errors of a school's figures");
   v.group("currents", r.currents, "where the water's velocity holds");
   v.group("merge", r.merge, "schools over the cuts between observations");
   v.group("grow", r.grow, "growing from one click");

@@ -52,6 +52,8 @@ class Engine {
 
   [[nodiscard]] std::int64_t pings() const { return static_cast<std::int64_t>(observation_.pings.size()); }
   [[nodiscard]] const Sector& sector() const { return sector_; }
+  /// The median that selection works on, as it suits the beams.
+  [[nodiscard]] MedianParams filter_box() const;
   /// With the widths of the recipe's calibration.
   [[nodiscard]] const BeamGrid& grid() const { return grid_; }
   [[nodiscard]] const BeamFigures& beam_figures() const { return figures_; }
@@ -109,7 +111,6 @@ class Engine {
 
  private:
   using Power = std::shared_ptr<const PowerVolume>;
-  [[nodiscard]] MedianParams filter_box() const;
   [[nodiscard]] Result<Power> power(std::int64_t ping_index);
   [[nodiscard]] Array3<std::int16_t> levels_of(const PowerVolume& power) const;
   [[nodiscard]] KnownPings::Background background_of(std::int64_t ping_index);

@@ -20,6 +20,7 @@
 #include "school/measure/extinction.h"
 #include "school/measure/measure.h"
 #include "school/measure/movement.h"
+#include "school/measure/school_errors.h"
 #include "school/measure/summarise.h"
 #include "school/measure/total_echo.h"
 #include "school/measure/two_way_beam.h"
@@ -90,7 +91,10 @@ MeasuredMask measure_one(const Engine& engine, const StagedPing& ping, const std
   row.school_id = all[index].school->decided.school_id;
   row.ping_index = ping.ping_index;
   row.time_utc = at.time;
-  return {std::move(school), faulty_members(input, all[index].in_ping->mask)};
+  const Recipe& recipe = engine.recipe();
+  Repeats repeats = measure_repeats(input, all[index].in_ping->mask, engine.filter_box(), recipe.detect.tolerance_db,
+                                    static_cast<std::uint64_t>(at.time), recipe.measure, recipe.errors);
+  return {std::move(school), faulty_members(input, all[index].in_ping->mask), std::move(repeats)};
 }
 
 /// Everything that a ping's rows depend on; without the ping itself where the engine keeps no keys, being the same then.
@@ -263,6 +267,19 @@ void keep_rows(MeasuredPings& before, const Engine& engine, const std::vector<Me
   }
 }
 
+/// Fills in the standard errors of schools that were just summarised.
+void add_errors(const std::vector<std::vector<MeasuredMask>>& pings, const Recipe& recipe,
+                ObservationProduct& product) {
+  std::map<std::int64_t, std::vector<const Repeats*>> by_number;
+  for (const std::vector<MeasuredMask>& ping : pings) {
+    for (const MeasuredMask& one : ping) by_number[one.school.row.school_id].push_back(&one.repeats);
+  }
+  for (SchoolRow& school : product.schools) {
+    const std::vector<SchoolPingRow> rows = rows_of(product, school.school_id);
+    school.se = school_errors(rows, by_number[school.school_id], recipe.summarise, recipe.errors);
+  }
+}
+
 /// All rows, by school and ping, their corrected columns filled.
 std::vector<SchoolPingRow> corrected_rows(const std::vector<std::vector<MeasuredMask>>& pings,
                                           const MeasureParams& params) {
@@ -314,6 +331,7 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
                                                engine.recipe().measure.extinction.ratio)});
   }
   summarise_schools(schools, engine.recipe(), product);
+  add_errors(rows, engine.recipe(), product);
   take_masks(schools, faults, product);
   return {};
 }

@@ -15,7 +15,7 @@ namespace sonar {
 namespace {
 
 /// Raised when a member comes, goes or changes its meaning.
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
 
 /// Hands every column of a row to an archive.
 template <class Io>
@@ -69,6 +69,7 @@ void fields(auto& io, Archived<MeasuredMask> auto& mask) {
   io(mask.school.row);
   io(mask.school.body);
   io(mask.fault);
+  io(mask.repeats);
 }
 
 std::filesystem::path measured_file(const IndexCache& cache, const SurveyFiles& survey,

@@ -11,6 +11,7 @@
 #include "base/hash.h"
 #include "pipeline/survey/survey.h"
 #include "school/measure/measure.h"
+#include "school/measure/school_errors.h"
 
 namespace sonar {
 
@@ -18,6 +19,7 @@ namespace sonar {
 struct MeasuredMask {
   MeasuredSchool school;
   std::vector<bool> fault;
+  Repeats repeats = {};  ///< the figures under other fading and thresholds
 };
 
 /// What was measured of an observation's pings, kept from one measuring to the next: a ping whose masks and numbers are the

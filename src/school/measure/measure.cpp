@@ -125,11 +125,10 @@ std::vector<bool> faulty_members(const MeasureInput& ping, const PingMask& mask)
   return faulty;
 }
 
-MeasuredSchool measure(const MeasureInput& ping, const PingMask& mask, const MeasureParams& params) {
+SchoolPingRow measure_row(const MeasureInput& ping, const PingMask& mask, const MeasureParams& params) {
   SONAR_CHECK(ping.sector != nullptr && ping.grid != nullptr && !mask.empty());
   SONAR_CHECK(ping.sv.shape() == ping.flags.shape());
-  MeasuredSchool out;
-  SchoolPingRow& row = out.row;
+  SchoolPingRow row;
   count_voxels(mask, ping.sector->beams(), row);
   row.threshold_db = ping.threshold_db;
   const MaskShape shape = shape_of(mask, *ping.sector);
@@ -138,7 +137,7 @@ MeasuredSchool measure(const MeasureInput& ping, const PingMask& mask, const Mea
   row.edge_flags = edges.flags;
   row.edge_fraction = edges.edge_fraction;
   row.touches_edge = (edges.flags & kTouchesEdge) != 0 ? 1 : 0;
-  if (!(shape.weight > 0.0)) return out;
+  if (!(shape.weight > 0.0)) return row;
   measure_place(ping, shape, row);
   measure_extents(ping, mask, shape, row);
   measure_echo(ping, mask, row);
@@ -153,7 +152,14 @@ MeasuredSchool measure(const MeasureInput& ping, const PingMask& mask, const Mea
     row.bottom_depth_m = depth + (levelled(bottom, ping.placement).z - bottom.z);
   }
   describe_school(ping, mask, shape, row);
-  out.body = body_echo(ping, mask, params);
+  return row;
+}
+
+MeasuredSchool measure(const MeasureInput& ping, const PingMask& mask, const MeasureParams& params) {
+  MeasuredSchool out;
+  out.row = measure_row(ping, mask, params);
+  // A range says that a voxel of the mask has a volume.
+  if (std::isfinite(out.row.range_m)) out.body = body_echo(ping, mask, params);
   return out;
 }
 

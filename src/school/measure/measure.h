@@ -14,6 +14,9 @@ namespace sonar {
 /// Which members are faulty samples and take no part in Sv, in the mask's order.
 [[nodiscard]] std::vector<bool> faulty_members(const MeasureInput& ping, const PingMask& mask);
 
+/// The row alone, without what correct_sizes() needs.
+[[nodiscard]] SchoolPingRow measure_row(const MeasureInput& ping, const PingMask& mask, const MeasureParams& params);
+
 /// A school in one ping.
 struct MeasuredSchool {
   SchoolPingRow row;  ///< of school_pings.csv; the corrected columns wait for correct_sizes()

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "base/array.h"
+#include "model/mask.h"
+#include "school/measure/measure_input.h"
+#include "school/runs.h"
+#include "signal/median.h"
+
+namespace sonar {
+
+/// A ping as other fading would have it; samples far from the school as they are.
+struct RepeatedPing {
+  Array3<std::int16_t> sv;
+  Array3<std::int16_t> filtered;
+  PingMask mask;
+};
+
+/// What the neighbourhood of a school would look like under other fading or another threshold (school_errors.h).
+class PingRepeater {
+ public:
+  /// Input and mask are borrowed.
+  PingRepeater(const MeasureInput& ping, const PingMask& mask, const MedianParams& median, double tolerance_db);
+  [[nodiscard]] RepeatedPing under_fading(std::uint64_t seed) const;
+  /// The mask if its threshold lay so much higher.
+  [[nodiscard]] PingMask at_threshold(double step_db) const;
+
+ private:
+  /// Exponential fading of mean 1 in the box, counts; neighbours share it.
+  [[nodiscard]] Array3<std::int16_t> fading(std::uint64_t seed) const;
+  /// Members where the filtered level changes by so much and the threshold too.
+  [[nodiscard]] PingMask moved_mask(View3<const std::int16_t> change, double threshold_db) const;
+  [[nodiscard]] double loud_part_db(View3<const std::int16_t> change) const;
+
+  const MeasureInput& ping_;
+  const PingMask& mask_;
+  MedianParams median_;
+  double tolerance_db_;
+  IndexBox box_;                  ///< round the school, the water beside it included
+  Array3<std::uint8_t> members_;  ///< in the box: confidence, 0 = no member
+  Array3<std::uint8_t> next_to_;  ///< in the box: 1 = within a beam, a fan and half the filter of a member
+  double alike_[3] = {1, 1, 1};   ///< neighbours that fade as one over fans, beams and samples
+};
+
+}  // namespace sonar

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "school/measure/school_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+
+#include "base/check.h"
+#include "base/units.h"
+#include "school/measure/measure.h"
+#include "school/measure/repeat_ping.h"
+
+namespace sonar {
+namespace {
+
+/// Collects the figures that have an error, by their columns' names.
+struct FigureReader {
+  FigureValues& out;
+  void operator()(std::string_view, std::string_view, const auto&) const {}
+  void operator()(std::string_view name, std::string_view, double& value) const {
+    for (std::size_t i = 0; i < kErrorCount; ++i) {
+      if (kErrorColumns[i].figure == name) out[i] = value;
+    }
+  }
+};
+
+/// Puts figures in their places, the reverse.
+struct FigureWriter {
+  const std::array<float, kErrorCount>& in;
+  void operator()(std::string_view, std::string_view, const auto&) const {}
+  void operator()(std::string_view name, std::string_view, double& value) const {
+    for (std::size_t i = 0; i < kErrorCount; ++i) {
+      if (kErrorColumns[i].figure == name) value = static_cast<double>(in[i]);
+    }
+  }
+};
+
+template <class Row>
+FigureValues read_figures(Row row) {
+  FigureValues out = unknown_figures();
+  FigureReader reader{out};
+  columns(reader, row);
+  return out;
+}
+
+/// The school's figures if all its pings were measured in this way.
+FigureValues repeated(std::span<const SchoolPingRow> rows, std::span<const Repeats* const> repeats, std::size_t which,
+                      const SummariseParams& summary) {
+  std::vector<SchoolPingRow> others(rows.begin(), rows.end());
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    FigureWriter writer{(*repeats[i])[which]};
+    columns(writer, others[i]);
+    // summarise() takes the echo of pings that know a corrected volume, which a repeat does not change.
+  }
+  return figures_of(summarise(others, summary));
+}
+
+/// Their standard deviation, so much wider that 1.96 of it are the 95 % of Student's t for as many.
+double spread(const std::vector<double>& values) {
+  constexpr double kStudent = 2.1314 / 1.95996;  // 15 degrees of freedom
+  if (2 * values.size() < kFadings) return kUnknown;
+  double mean = 0.0;
+  for (const double v : values) mean += v / static_cast<double>(values.size());
+  double square = 0.0;
+  for (const double v : values) square += (v - mean) * (v - mean);
+  return kStudent * std::sqrt(square / static_cast<double>(values.size() - 1));
+}
+
+/// Power of a length that a unit is: the sector is similar to itself under another sound speed.
+int dimension(std::string_view unit) {
+  if (unit == "m") return 1;
+  if (unit == "m2") return 2;
+  return unit == "m3" ? 3 : 0;
+}
+
+bool is_level(std::string_view figure) { return figure.starts_with("sv_") && figure.ends_with("_db"); }
+bool is_echo(std::string_view figure) { return figure == "backscatter_m2" || figure == "nasc_m2_nmi2"; }
+bool is_depth(std::string_view figure) { return figure == "depth_m" || figure == "surface_distance_m"; }
+
+/// By what is alike in all pings, threshold apart.
+double common_error(const ErrorColumn& column, double figure, const SchoolRow& school, const ErrorParams& params) {
+  const double calibration_db = std::isfinite(school.backscatter_calibration_se_db)
+                                    ? school.backscatter_calibration_se_db
+                                    : params.calibration_db;
+  double variance = std::pow(dimension(column.unit) * figure * params.sound_speed_percent / 100.0, 2);
+  if (is_level(column.figure)) variance += calibration_db * calibration_db;
+  if (is_echo(column.figure)) variance += std::pow(figure * (linear_from_db(calibration_db) - 1.0), 2);
+  if (is_depth(column.figure)) variance += std::pow(school.horizontal_range_m * rad_from_deg(params.tilt_deg), 2);
+  return std::sqrt(variance);
+}
+
+}  // namespace
+
+FigureValues figures_of(const SchoolPingRow& row) { return read_figures(row); }
+FigureValues figures_of(const SchoolRow& row) { return read_figures(row); }
+
+Repeats measure_repeats(const MeasureInput& ping, const PingMask& mask, const MedianParams& median, double tolerance_db,
+                        std::uint64_t seed, const MeasureParams& measure, const ErrorParams& params) {
+  Repeats repeats;
+  if (!params.enabled || ping.filtered.data() == nullptr || std::isnan(ping.threshold_db)) return repeats;
+  const auto add = [&](const MeasureInput& input, const PingMask& other) {
+    repeats.emplace_back();
+    const FigureValues figures = other.empty() ? unknown_figures() : figures_of(measure_row(input, other, measure));
+    std::transform(figures.begin(), figures.end(), repeats.back().begin(),
+                   [](double v) { return static_cast<float>(v); });
+  };
+  const PingRepeater repeater(ping, mask, median, tolerance_db);
+  for (std::uint64_t k = 0; k < kFadings; ++k) {
+    const RepeatedPing other = repeater.under_fading(seed + k);
+    MeasureInput input = ping;
+    input.sv = other.sv.view();
+    input.filtered = other.filtered.view();
+    add(input, other.mask);
+  }
+  for (const double step_db : {-params.threshold_db, params.threshold_db}) {
+    MeasureInput input = ping;
+    input.threshold_db += step_db;
+    add(input, repeater.at_threshold(step_db));
+  }
+  return repeats;
+}
+
+FigureValues school_errors(std::span<const SchoolPingRow> rows, std::span<const Repeats* const> repeats,
+                           const SummariseParams& summary, const ErrorParams& params) {
+  SONAR_CHECK(rows.size() == repeats.size() && !rows.empty());
+  FigureValues errors = unknown_figures();
+  if (!params.enabled) return errors;
+  if (std::any_of(repeats.begin(), repeats.end(), [](const Repeats* one) { return one->size() != kRepeats; })) {
+    return errors;
+  }
+  std::vector<FigureValues> others;
+  for (std::size_t k = 0; k < kRepeats; ++k) others.push_back(repeated(rows, repeats, k, summary));
+  const SchoolRow school = summarise(rows, summary);
+  const FigureValues figures = figures_of(school);
+  for (std::size_t i = 0; i < kErrorCount; ++i) {
+    std::vector<double> known;
+    for (std::size_t k = 0; k < kFadings; ++k) {
+      if (std::isfinite(others[k][i])) known.push_back(others[k][i]);
+    }
+    const double by_threshold = 0.5 * (others[kFadings + 1][i] - others[kFadings][i]);
+    const double common = common_error(kErrorColumns[i], figures[i], school, params);
+    errors[i] = std::sqrt(std::pow(spread(known), 2) + by_threshold * by_threshold + common * common);
+  }
+  return errors;
+}
+
+}  // namespace sonar

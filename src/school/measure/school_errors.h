@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/describe.h"
+#include "model/mask.h"
+#include "model/school.h"
+#include "model/school_errors.h"
+#include "school/measure/measure_input.h"
+#include "school/measure/measure_params.h"
+#include "school/measure/summarise.h"
+#include "signal/median.h"
+
+namespace sonar {
+
+/// Standard errors of what is the same in all pings of a school, so that no mean makes it better.
+struct ErrorParams {
+  bool enabled = true;
+  double threshold_db = 1.0;
+  double calibration_db = 0.5;
+  double sound_speed_percent = 0.5;
+  double tilt_deg = 0.5;
+};
+
+template <class Visitor>
+void describe(Visitor& v, ErrorParams& p) {
+  v.field(
+      "enabled", p.enabled,
+      {.text =
+           "Work out the standard error of each figure of a school by measuring it again under other fading and other "
+           "thresholds; switch it off to save the time, which is about six times that of measuring."});
+  v.field("threshold_db", p.threshold_db,
+          {.unit = "dB",
+           .min = 0,
+           .max = 10,
+           .text = "Standard error of the threshold that bounds a school: how differently two people would choose it; "
+                   "set it to 0 where the threshold is part of the method."});
+  v.field(
+      "calibration_db", p.calibration_db,
+      {.unit = "dB",
+       .min = 0,
+       .max = 20,
+       .text =
+           "Standard error of the calibration of Sv, gain and equivalent beam angle together, where the calibration "
+           "table tells none. The default is an assumption, not a measurement; set it to what the sphere runs of "
+           "your sonar scatter by."});
+  v.field("sound_speed_percent", p.sound_speed_percent,
+          {.unit = "%",
+           .min = 0,
+           .max = 10,
+           .text = "Standard error of the sound speed that ranges are counted with: 0.5 is 7 m/s, what one value for a "
+                   "whole season leaves open; lower it to 0.1 where a cast was taken."});
+  v.field(
+      "tilt_deg", p.tilt_deg,
+      {.unit = "degrees",
+       .min = 0,
+       .max = 10,
+       .text = "Standard error of the elevation of a beam, by roll, pitch and mounting; it is the error of depths."});
+}
+
+/// So many other fadings, and two other thresholds, below and above.
+inline constexpr int kFadings = 16;
+inline constexpr int kRepeats = kFadings + 2;
+
+/// Figures of one school in one ping as they would come out under other fading, and under other thresholds. Empty = not
+/// known.
+using Repeats = std::vector<std::array<float, kErrorCount>>;
+
+/// Figures that have a standard error, in the order of kErrorColumns.
+[[nodiscard]] FigureValues figures_of(const SchoolPingRow& row);
+[[nodiscard]] FigureValues figures_of(const SchoolRow& row);
+
+/// Measures a school again, kRepeats times, by measure() itself.
+/// Fading: the echo is taken as its median-filtered level times exponential fading, which neighbouring voxels share as far as
+/// voxels_alike() tells. The mask moves with the filtered level of the same fading, where that crosses the mask's threshold;
+/// a voxel that stands against the threshold (a human's) stays. The threshold moves with the school's loud part.
+/// median   the filter that the mask was found in
+/// tolerance_db  what confidences count from
+/// seed     of the ping: the same for all its schools
+/// threads  pure
+/// cost     kRepeats measurings, and a median of the school's surroundings for each
+/// source   parametric bootstrap (Efron & Tibshirani 1993, section 6.5)
+[[nodiscard]] Repeats measure_repeats(const MeasureInput& ping, const PingMask& mask, const MedianParams& median,
+                                      double tolerance_db, std::uint64_t seed, const MeasureParams& measure,
+                                      const ErrorParams& params);
+
+/// Standard errors of a school's figures, in the order of kErrorColumns; NaN = unknown. Fading differs from ping to ping;
+/// threshold, calibration, sound speed and tilt are alike in all.
+/// rows     of the school, rising time
+/// repeats  [row]
+[[nodiscard]] FigureValues school_errors(std::span<const SchoolPingRow> rows, std::span<const Repeats* const> repeats,
+                                         const SummariseParams& summary, const ErrorParams& params);
+
+}  // namespace sonar

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "school/measure/school_errors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string_view>
+#include <vector>
+
+namespace sonar {
+namespace {
+
+double error_of(const FigureValues& errors, std::string_view figure) {
+  for (std::size_t i = 0; i < kErrorCount; ++i) {
+    if (kErrorColumns[i].figure == figure) return errors[i];
+  }
+  return kUnknown;
+}
+
+SchoolPingRow row_of(double volume_m3) {
+  SchoolPingRow row;
+  row.volume_m3 = volume_m3;
+  row.length_m = 40.0;
+  row.depth_m = 60.0;
+  row.sv_mean_db = -45.0;
+  row.backscatter_m2 = 0.5;
+  row.horizontal_range_m = 200.0;
+  return row;
+}
+
+Repeats unchanged(const SchoolPingRow& row) {
+  const FigureValues figures = figures_of(row);
+  Repeats repeats(kRepeats);
+  for (auto& one : repeats) {
+    for (std::size_t i = 0; i < kErrorCount; ++i) one[i] = static_cast<float>(figures[i]);
+  }
+  return repeats;
+}
+
+// By hand: 0.5 % of sound speed is 1.5 % of a volume; 200 m x 0.5 degrees are 1.745 m of depth.
+TEST(SchoolErrors, WhatIsAlikeInAllPingsIsNotMadeSmallerByThem) {
+  for (const std::size_t pings : {std::size_t{1}, std::size_t{9}}) {
+    const std::vector<SchoolPingRow> rows(pings, row_of(1000.0));
+    const Repeats one = unchanged(rows.front());
+    const std::vector<const Repeats*> repeats(pings, &one);
+    const FigureValues errors = school_errors(rows, repeats, {}, {});
+    EXPECT_NEAR(error_of(errors, "volume_m3"), 15.0, 1e-3);
+    EXPECT_NEAR(error_of(errors, "length_m"), 0.2, 1e-5);
+    EXPECT_NEAR(error_of(errors, "sv_mean_db"), 0.5, 1e-5);
+    EXPECT_NEAR(error_of(errors, "depth_m"), std::hypot(0.3, 200.0 * 0.5 * std::numbers::pi / 180.0), 1e-4);
+    EXPECT_TRUE(std::isnan(error_of(errors, "surface_m2"))) << "a figure that is unknown has no error";
+  }
+}
+
+// Deviations +-1 in turn: 16 of them have the deviation sqrt(16 / 15); widened for their number. The threshold adds half of 6.
+TEST(SchoolErrors, FadingAndThresholdAddInQuadrature) {
+  const std::vector<SchoolPingRow> rows{row_of(1000.0)};
+  Repeats one = unchanged(rows.front());
+  for (std::size_t k = 0; k < one.size(); ++k) one[k][1] += k % 2 == 0 ? 1.0F : -1.0F;
+  one[kFadings][1] = 1003.0F;
+  one[kFadings + 1][1] = 997.0F;
+  const std::vector<const Repeats*> repeats{&one};
+  ErrorParams params;
+  params.sound_speed_percent = 0.0;
+  const double fading = std::sqrt(16.0 / 15.0) * 2.1314 / 1.95996;
+  EXPECT_NEAR(error_of(school_errors(rows, repeats, {}, params), "volume_m3"), std::hypot(fading, 3.0), 1e-3);
+  params.enabled = false;
+  EXPECT_TRUE(std::isnan(error_of(school_errors(rows, repeats, {}, params), "volume_m3")));
+}
+
+}  // namespace
+}  // namespace sonar
