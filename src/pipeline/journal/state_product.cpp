@@ -2,6 +2,7 @@
 #include "pipeline/journal/state_product.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -14,6 +15,11 @@
 
 namespace sonar {
 namespace {
+
+bool same_figures(const FigureValues& a, const FigureValues& b) {
+  return std::equal(a.begin(), a.end(), b.begin(),
+                    [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+}
 
 /// The state's schools, each under the state's number.
 std::vector<SchoolMasks> numbered_as_shown(const Engine& engine, JournalState state) {
@@ -96,7 +102,8 @@ ObservationProduct state_product_of_results(const Engine& engine, const JournalS
   // Standard errors need the pings: those of a school that is as it was measured still hold.
   for (SchoolRow& school : product.schools) {
     for (const SchoolRow& before : measured.schools) {
-      if (before.school_id == school.school_id && figures_of(before) == figures_of(school)) school.se = before.se;
+      if (before.school_id == school.school_id && same_figures(figures_of(before), figures_of(school)))
+        school.se = before.se;
     }
   }
   join_at_reach(product, engine.recipe().merge);

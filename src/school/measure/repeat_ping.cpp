@@ -181,13 +181,14 @@ PingMask PingRepeater::moved_mask(View3<const std::int16_t> change, double thres
   return out;
 }
 
-RepeatedPing PingRepeater::under_fading(std::uint64_t seed) const {
+PingMask PingRepeater::under_fading(std::uint64_t seed) {
   const Shape3 shape = ping_.sv.shape();
-  RepeatedPing out;
-  out.sv = Array3<std::int16_t>(shape);
-  out.filtered = Array3<std::int16_t>(shape);
-  std::copy(ping_.sv.all().begin(), ping_.sv.all().end(), out.sv.all().begin());
-  std::copy(ping_.filtered.all().begin(), ping_.filtered.all().end(), out.filtered.all().begin());
+  if (sv_.all().empty()) {  // each repeat writes the same box anew
+    sv_ = Array3<std::int16_t>(shape);
+    filtered_ = Array3<std::int16_t>(shape);
+    std::copy(ping_.sv.all().begin(), ping_.sv.all().end(), sv_.all().begin());
+    std::copy(ping_.filtered.all().begin(), ping_.filtered.all().end(), filtered_.all().begin());
+  }
   const Array3<std::int16_t> echo = fading(seed);
   Array3<std::int16_t> change(echo.shape());
   const Array3<SampleFlags> sound(echo.shape());
@@ -197,18 +198,18 @@ RepeatedPing PingRepeater::under_fading(std::uint64_t seed) const {
   for (int f = 0; f < box_.fans(); ++f) {
     for (int b = 0; b < box_.beams(); ++b) {
       const int row = (box_.first_fan + f) * shape.beams + box_.first_beam + b;
-      const auto sv = out.sv.view().row(row);
-      const auto filtered = out.filtered.view().row(row);
+      const auto was = ping_.filtered.row(row);
+      const auto sv = sv_.view().row(row);
+      const auto filtered = filtered_.view().row(row);
       for (int s = 0; s < box_.samples(); ++s) {
         const auto i = static_cast<std::size_t>(box_.first_sample + s);
-        if (filtered[i] == kNoData) continue;
-        if (sv[i] != kNoData) sv[i] = clamped(filtered[i] - median_counts + echo(f, b, s));
-        filtered[i] = clamped(filtered[i] + change(f, b, s));
+        if (was[i] == kNoData) continue;
+        if (sv[i] != kNoData) sv[i] = clamped(was[i] - median_counts + echo(f, b, s));
+        filtered[i] = clamped(was[i] + change(f, b, s));
       }
     }
   }
-  out.mask = moved_mask(std::as_const(change).view(), ping_.threshold_db + loud_part_db(std::as_const(change).view()));
-  return out;
+  return moved_mask(std::as_const(change).view(), ping_.threshold_db + loud_part_db(std::as_const(change).view()));
 }
 
 PingMask PingRepeater::at_threshold(double step_db) const {

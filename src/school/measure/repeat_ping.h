@@ -11,19 +11,15 @@
 
 namespace sonar {
 
-/// A ping as other fading would have it; samples far from the school as they are.
-struct RepeatedPing {
-  Array3<std::int16_t> sv;
-  Array3<std::int16_t> filtered;
-  PingMask mask;
-};
-
 /// What the neighbourhood of a school would look like under other fading or another threshold (school_errors.h).
 class PingRepeater {
  public:
   /// Input and mask are borrowed.
   PingRepeater(const MeasureInput& ping, const PingMask& mask, const MedianParams& median, double tolerance_db);
-  [[nodiscard]] RepeatedPing under_fading(std::uint64_t seed) const;
+  /// The mask under other fading. sv() and filtered() then are the ping so; samples far from the school are as they were.
+  [[nodiscard]] PingMask under_fading(std::uint64_t seed);
+  [[nodiscard]] View3<const std::int16_t> sv() const { return sv_.view(); }
+  [[nodiscard]] View3<const std::int16_t> filtered() const { return filtered_.view(); }
   /// The mask if its threshold lay so much higher.
   [[nodiscard]] PingMask at_threshold(double step_db) const;
 
@@ -38,7 +34,9 @@ class PingRepeater {
   const PingMask& mask_;
   MedianParams median_;
   double tolerance_db_;
-  IndexBox box_;                  ///< round the school, the water beside it included
+  IndexBox box_;  ///< round the school, the water beside it included
+  Array3<std::int16_t> sv_;
+  Array3<std::int16_t> filtered_;
   Array3<std::uint8_t> members_;  ///< in the box: confidence, 0 = no member
   Array3<std::uint8_t> next_to_;  ///< in the box: 1 = within a beam, a fan and half the filter of a member
   double alike_[3] = {1, 1, 1};   ///< neighbours that fade as one over fans, beams and samples

@@ -105,13 +105,13 @@ Repeats measure_repeats(const MeasureInput& ping, const PingMask& mask, const Me
     std::transform(figures.begin(), figures.end(), repeats.back().begin(),
                    [](double v) { return static_cast<float>(v); });
   };
-  const PingRepeater repeater(ping, mask, median, tolerance_db);
+  PingRepeater repeater(ping, mask, median, tolerance_db);
   for (std::uint64_t k = 0; k < kFadings; ++k) {
-    const RepeatedPing other = repeater.under_fading(seed + k);
+    const PingMask other = repeater.under_fading(seed + k);
     MeasureInput input = ping;
-    input.sv = other.sv.view();
-    input.filtered = other.filtered.view();
-    add(input, other.mask);
+    input.sv = repeater.sv();
+    input.filtered = repeater.filtered();
+    add(input, other);
   }
   for (const double step_db : {-params.threshold_db, params.threshold_db}) {
     MeasureInput input = ping;
@@ -125,7 +125,6 @@ FigureValues school_errors(std::span<const SchoolPingRow> rows, std::span<const 
                            const SummariseParams& summary, const ErrorParams& params) {
   SONAR_CHECK(rows.size() == repeats.size() && !rows.empty());
   FigureValues errors = unknown_figures();
-  if (!params.enabled) return errors;
   if (std::any_of(repeats.begin(), repeats.end(), [](const Repeats* one) { return one->size() != kRepeats; })) {
     return errors;
   }

@@ -19,7 +19,7 @@ namespace sonar {
 
 /// Standard errors of what is the same in all pings of a school, so that no mean makes it better.
 struct ErrorParams {
-  bool enabled = true;
+  bool enabled = false;
   double threshold_db = 1.0;
   double calibration_db = 0.5;
   double sound_speed_percent = 0.5;
@@ -32,7 +32,7 @@ void describe(Visitor& v, ErrorParams& p) {
       "enabled", p.enabled,
       {.text =
            "Work out the standard error of each figure of a school by measuring it again under other fading and other "
-           "thresholds; switch it off to save the time, which is about six times that of measuring."});
+           "thresholds; it takes several times as long as measuring."});
   v.field("threshold_db", p.threshold_db,
           {.unit = "dB",
            .min = 0,

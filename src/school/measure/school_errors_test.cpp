@@ -66,8 +66,10 @@ TEST(SchoolErrors, FadingAndThresholdAddInQuadrature) {
   params.sound_speed_percent = 0.0;
   const double fading = std::sqrt(16.0 / 15.0) * 2.1314 / 1.95996;
   EXPECT_NEAR(error_of(school_errors(rows, repeats, {}, params), "volume_m3"), std::hypot(fading, 3.0), 1e-3);
-  params.enabled = false;
-  EXPECT_TRUE(std::isnan(error_of(school_errors(rows, repeats, {}, params), "volume_m3")));
+  const Repeats none;
+  const std::vector<const Repeats*> unknown{&none};
+  EXPECT_TRUE(std::isnan(error_of(school_errors(rows, unknown, {}, params), "volume_m3")))
+      << "it was not measured again";
 }
 
 }  // namespace
