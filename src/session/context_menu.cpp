@@ -70,8 +70,9 @@ constexpr std::array<ActionGroup, 2> kJournal{kUndo, kRows};
 constexpr std::array<ActionGroup, 1> kNotes{kRows};
 
 /// Of the menu bar: the first of what belongs together, after others.
-constexpr std::array<Id, 34> kBegin{"edit.undo",
+constexpr std::array<Id, 36> kBegin{"edit.undo",
                                     "transects.open",
+                                    "file.recipe",
                                     "file.calibration",
                                     "file.run_surveys",
                                     "file.save_view",
@@ -95,6 +96,7 @@ constexpr std::array<Id, 34> kBegin{"edit.undo",
                                     "school.split",
                                     "school.species",
                                     "school.delete",
+                                    "numbers.integrate",
                                     "display.filtered",
                                     "timelines.filtered",
                                     "echogram.fan",

@@ -71,7 +71,8 @@ TEST_F(NumbersInWindow, WaterIsIntegratedAndAClickGoesToAPing) {
   auto* view = page->findChild<PictureView*>("sv_section");
   ASSERT_NE(view, nullptr);
   auto& section = dynamic_cast<EffortPicture&>(view->picture());
-  QTRY_VERIFY_WITH_TIMEOUT(section.chart() != nullptr && section.chart()->frame.size == section.size(), 5000);
+  const auto drawn = [&] { return section.chart() != nullptr && section.chart()->frame.size == section.size(); };
+  ASSERT_TRUE(QTest::qWaitFor(drawn, 30'000)) << section.problem();
   keep(*page, "section");
   // The end of what was sailed: the last observation's.
   const PixelRect plot = section.chart()->plot.place;
