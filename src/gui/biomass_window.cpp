@@ -44,7 +44,7 @@ void BiomassWindow::add_choices() {
     PanelSection made{title, source, std::move(names)};
     PanelSection::Words relations{"relation", {}};
     for (const TsRelation& one : fish_.relations()) relations.words.push_back(one.name);
-    made.looks = {{"weight_a_g", "no biomass", {kNoWeight_g, 0.02}}};
+    made.looks = {{"weight_a_g", to_translate("no biomass"), {kNoWeight_g, 0.02}}};
     made.words = {std::move(relations)};
     const auto own = [this] { return fish_.params.values().aspect == AspectModel::own; };
     const auto normal = [this] { return fish_.params.values().lengths == LengthsFrom::mean_and_sd; };

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/all_words.h"
 
+#include <initializer_list>
 #include <sstream>
 
 #include "session/curves.h"
+#include "session/numbers/fish_biomass.h"
 #include "session/recipe_editor.h"
+#include "session/setup/sphere_page.h"
 #include "session/window_preferences.h"
 
 namespace sonar {
@@ -33,6 +36,12 @@ class Words {
     for (const PanelSection::Look& one : section.looks) add(one.at_min);
     for (const PanelSection::Note& one : section.notes) add(one.text());
   }
+  void add(const Rows& rows) {
+    for (const ListColumn& column : rows.columns()) {
+      add(column.title);
+      add(column.tip);
+    }
+  }
   template <class P>
   void add(const Parameters<P>& parameters) {
     for (const Property& one : parameters.properties()) add(one);
@@ -51,10 +60,7 @@ std::set<std::string> all_words(AppModel& app) {
   for (const PictureDock& dock : app.pictures) words.add(dock.title);
   for (const RowsDock& dock : app.lists) {
     words.add(dock.title);
-    for (const ListColumn& column : dock.rows->columns()) {
-      words.add(column.title);
-      words.add(column.tip);
-    }
+    words.add(*dock.rows);
   }
   for (const PanelSection& section : app.panel) words.add(section);
   for (const PanelSection& section : preference_pages(app)) words.add(section);
@@ -64,6 +70,15 @@ std::set<std::string> all_words(AppModel& app) {
     words.add(label_of(preset.name, {}));
     words.add(std::string(preset.text));
   }
+  words.add(app.integration->params);
+  words.add(app.fish->params);
+  for (const Rows* rows : std::initializer_list<const Rows*>{&app.integration->effort_rows, &app.integration->nasc_rows,
+                                                             &app.integration->strata_rows, &app.fish->school_rows,
+                                                             &app.fish->strata_rows}) {
+    words.add(*rows);
+  }
+  words.add(Parameters<SphereAsked>(app.workspace.queue));
+  words.add(Parameters<SphereLook>(app.workspace.queue));
   const Workspace& shared = app.workspace;
   words.add(shared.picture_file);
   words.add(shared.figure);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "session/numbers/fish_biomass.h"
 #include "session/test_app.h"
 
 namespace sonar {
@@ -20,6 +21,9 @@ TEST(AllWords, HaveWhatMenusPanelsAndTablesSay) {
   for (const Property& one : app.workspace.display.properties()) {
     EXPECT_TRUE(words.contains(one.tooltip)) << one.name;
   }
+  // Of windows that are opened later.
+  for (const Property& one : app.fish->params.properties()) EXPECT_TRUE(words.contains(one.tooltip)) << one.name;
+  EXPECT_TRUE(words.contains(app.integration->nasc_rows.columns().front().title));
   EXPECT_FALSE(words.contains(""));
 }
 

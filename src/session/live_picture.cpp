@@ -68,6 +68,7 @@ void LivePicture::update() {
   Build build_now = build({size_, scale_, dark_(), {}});
   if (!build_now) {
     if (wish_) wish_->cancel();
+    alive_ = std::make_shared<bool>(true);  // what is on its way shows what is no more
     image_ = {};
     problem_.clear();
     changed_.tell();

@@ -161,7 +161,8 @@ class LivePicture {
   bool on_page_ = false;
   Listeners<> changed_;
   Listeners<> outdated_;
-  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped
+  std::shared_ptr<bool> alive_ =
+      std::make_shared<bool>(true);  ///< of pictures on their way: once it is another, they are dropped
   std::optional<CancelToken> wish_;
   TaskThread background_;  // the last member: it ends first
 };

@@ -79,8 +79,10 @@ class ObservationIntegral {
   }
 
  private:
+  /// A recording may have gone on since its product was made.
+  [[nodiscard]] bool in_product(std::int64_t ping) const { return product_ && ping < std::ssize(product_->pings); }
   [[nodiscard]] bool is_bad(std::int64_t ping) const {
-    return engine_.is_bad(ping) || (product_ && product_->pings[static_cast<std::size_t>(ping)].bad);
+    return engine_.is_bad(ping) || (in_product(ping) && product_->pings[static_cast<std::size_t>(ping)].bad);
   }
 
   /// Empty of a damaged ping.
@@ -103,7 +105,7 @@ class ObservationIntegral {
 
   void take(std::int64_t ping, const PingCells& cells, UnitSums& sums) const {
     sums.add(cells);
-    if (!product_) sums.schools_known = false;
+    if (!in_product(ping)) sums.schools_known = false;
     const auto of_ping = schools_.find(ping);
     if (of_ping == schools_.end()) return;
     for (const std::int64_t id : of_ping->second.ids) sums.schools.emplace(product_->observation, id);

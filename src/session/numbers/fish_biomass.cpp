@@ -187,8 +187,8 @@ void FishBiomass::compute() {
   wish.areas = areas_;
   wish.areas_file = areas_file_;
   const std::size_t unmeasured = wish.all ? 0 : document.survey()->observations.size() - wish.products.size();
-  (void)background_.post([this, alive = std::weak_ptr<bool>(alive_), wish = std::move(wish), number = ++wishes_,
-                          unmeasured](const CancelToken&) {
+  (void)background_.post_latest([this, alive = std::weak_ptr<bool>(alive_), wish = std::move(wish), number = ++wishes_,
+                                 unmeasured](const CancelToken&) {
     auto done = [&]() -> Result<Biomass> {
       try {
         return within_memory([&] { return computed(wish); });

@@ -89,9 +89,14 @@ Result<void> Integration::start() {
   waiting_ = true;
   progress_ = {"measuring schools", 0, 0};
   workspace_.document.open_all();
-  if (document.all_measured()) begin();
+  if (measured()) begin();
   changed_.tell();
   return {};
+}
+
+bool Integration::measured() const {
+  const Document& document = workspace_.document;
+  return document.all_measured() && !document.measuring();
 }
 
 void Integration::begin() {
@@ -103,10 +108,11 @@ void Integration::begin() {
   }
   work_ = std::make_shared<Work>(document.options().threads);
   const auto alive = std::weak_ptr<bool>(alive_);
-  work_->set_progress([this, alive, give_way = GivesWay(workspace_.document.right_of_way())](
+  work_->set_progress([this, alive, work = std::weak_ptr(work_),
+                       give_way = GivesWay(workspace_.document.right_of_way())](
                           std::string_view stage, std::int64_t done, std::int64_t total) mutable {
-    workspace_.queue.post_latest("integration", [this, alive, now = Progress{std::string(stage), done, total}] {
-      if (alive.expired() || !work_) return;
+    workspace_.queue.post_latest("integration", [this, alive, work, now = Progress{std::string(stage), done, total}] {
+      if (alive.expired() || !work_ || work.lock() != work_) return;
       progress_ = now;
       changed_.tell();
     });
@@ -154,7 +160,8 @@ void Integration::hear(DocumentChange change) {
     told_.clear();
     return put(nullptr);
   }
-  if (change == DocumentChange::measures && waiting_ && workspace_.document.all_measured()) {
+  const bool further = change == DocumentChange::measures || change == DocumentChange::progress;
+  if (further && waiting_ && measured()) {
     begin();
     changed_.tell();
   }
@@ -205,7 +212,7 @@ void Integration::settle() {
   do {
     workspace_.document.settle();
     runs_.wait();
-  } while (workspace_.queue.drain() > 0 || running());
+  } while (workspace_.queue.drain() > 0);
 }
 
 }  // namespace sonar

@@ -61,6 +61,8 @@ class Integration {
   void settle();
 
  private:
+  /// Whether all schools are measured as they are decided now.
+  [[nodiscard]] bool measured() const;
   void begin();
   void end(Result<Integrated> done);
   void hear(DocumentChange change);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/within_memory.h"
 #include "pipeline/calibrate/sphere_report.h"
 #include "publish/setup_pictures.h"
 #include "session/screen_theme.h"
@@ -88,10 +89,13 @@ void SpherePage::start() {
   if (running_) return;
   if (paths_.empty()) return tell("no sphere run is chosen: name the folder of its raw files");
   Document& document = app_.workspace.document;
+  if (const std::string& stage = document.progress().stage; !stage.empty()) {
+    return tell(fmt::format("wait until {} is done, or cancel it", stage));
+  }
   running_ = true;
   tell({});
-  document.run([&document, this, here = std::weak_ptr<bool>(here_), choice = choice(), paths = paths_,
-                recipe = document.recipe(), cache = document.options().cache](Work& work, const CancelToken& token) {
+  document.run([&shown_in = queue(), this, here = std::weak_ptr<bool>(here_), choice = choice(), paths = paths_,
+                recipe = document.recipe(), cache = document.options().cache](Work& work, const CancelToken&) {
     const auto fitted = [&]() -> Result<std::shared_ptr<const SphereMade>> {
       const auto survey = open_survey(paths, recipe.survey, recipe.navigation, cache, work);
       if (!survey) return pass_on(survey);
@@ -102,7 +106,8 @@ void SpherePage::start() {
       SphereChartData chart = sphere_chart_data(*made, *params);
       return std::make_shared<const SphereMade>(SphereMade{std::move(*made), *params, std::move(chart)});
     };
-    document.post(token, [this, here, made = fitted()] {
+    // Also where another job has come since: the page must not wait for ever.
+    shown_in.post([this, here, made = within_memory(fitted)] {
       if (!here.expired()) end(made);
     });
   });

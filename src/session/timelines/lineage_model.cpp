@@ -88,9 +88,12 @@ void LineageModel::hear(DocumentChange change) {
 LivePicture::Build LineageModel::build(const PictureLook& look) {
   const Document& document = workspace_.document;
   const auto& shown = document.shown();
-  if (!shown) return {};
-  const auto state = document.choices().states.find(shown->index());
-  if (state == document.choices().states.end() || !state->second || state->second->schools.empty()) return {};
+  const auto& states = document.choices().states;
+  const auto state = shown ? states.find(shown->index()) : states.end();
+  if (state == states.end() || !state->second || state->second->schools.empty()) {
+    if (!look.panel) sight_.reset();
+    return {};
+  }
   std::optional<std::int64_t> selected;
   if (const auto& school = workspace_.school(); school && school->observation == shown->index()) {
     selected = school->number;
@@ -121,7 +124,7 @@ void LineageModel::take(const std::shared_ptr<const void>& detail) {
 
 const LineageSight* LineageModel::current() const {
   const auto& shown = workspace_.document.shown();
-  return sight_ && shown && shown->index() == sight_->observation ? sight_.get() : nullptr;
+  return sight_ && problem().empty() && shown && shown->index() == sight_->observation ? sight_.get() : nullptr;
 }
 
 void LineageModel::show_all() {
@@ -246,7 +249,7 @@ void LineageModel::drop(const Held& held, std::int64_t onto) {
   } else {
     document.act(held.ping, MergeCommand{{*other, *school}});
   }
-  workspace_.school.set(SchoolName{current()->observation, onto});
+  workspace_.school.set(SchoolName{document.shown()->index(), onto});
 }
 
 void LineageModel::drop_free(const Held& held) {

@@ -136,6 +136,18 @@ TEST_F(LineageAtWork, AMarkedPieceOnTheFreeLaneIsASchoolOfItsOwn) {
   EXPECT_EQ(voxels(), before);
 }
 
+TEST_F(LineageAtWork, WithoutSchoolsNothingIsSaidOfThoseThatWere) {
+  const PixelPoint was = at(1, 4);
+  for (int i = 0; i < 20 && !document().state().schools.empty(); ++i) {
+    press("edit.undo");
+    settle();
+  }
+  EXPECT_TRUE(model().image().pixels.empty());
+  EXPECT_FALSE(model().sight());
+  EXPECT_EQ(model().hint(was), "");
+  EXPECT_TRUE(model().overlays().empty());
+}
+
 TEST_F(LineageAtWork, NothingHappensOutsideOrOnItsOwnLane) {
   const auto lines = document().choices().lines->size();
   drag(at(1, 4), {1.0, 1.0});
