@@ -165,8 +165,7 @@ void Edit::take(std::int64_t ping_index, const PingMask& voxels, std::size_t own
   }
 }
 
-void Edit::take_ends(std::size_t from, std::size_t into) {
-  const ReachEnds gone = masks(from).reach;
+void Edit::take_ends(ReachEnds gone, std::size_t into) {
   ReachEnds& ends = writable(into).masks.reach;
   if (gone.first) ends.first = std::min(*gone.first, ends.first.value_or(*gone.first));
   if (gone.last) ends.last = std::max(*gone.last, ends.last.value_or(*gone.last));

@@ -49,7 +49,7 @@ class Edit {
   void take(std::int64_t ping_index, const PingMask& voxels, std::size_t owner, bool whole);
   void set_reach(std::size_t school, const ReachEnds& ends) { writable(school).masks.reach = ends; }
   /// What is known of a school's ends holds for the one that it becomes part of.
-  void take_ends(std::size_t from, std::size_t into);
+  void take_ends(ReachEnds gone, std::size_t into);
   /// What is split off is another school: detection joins it no more with what it is split from.
   void part(std::size_t from, const std::vector<SchoolMasks::InPing>& apart);
   /// What was found of a detected school tells from now on what belongs to another one.

@@ -145,7 +145,7 @@ Result<void> carry_out(Edit& edit, const MergeCommand& command) {
     for (const InPing& there : edit.masks(schools[i]).pings) {
       edit.set_mask(into, there.ping_index, unite(edit.mask(into, there.ping_index), there.mask), there.threshold_db);
     }
-    edit.take_ends(schools[i], into);
+    edit.take_ends(edit.masks(schools[i]).reach, into);
     edit.remove(schools[i]);
   }
   return {};
@@ -196,7 +196,10 @@ Result<void> carry_out(Edit& edit, const HandOverCommand& command) {
     for (const InPing& there : piece) {
       edit.set_mask(to, there.ping_index, unite(edit.mask(to, there.ping_index), there.mask), there.threshold_db);
     }
-    edit.take_ends(*from, to);
+    ReachEnds ends = edit.masks(*from).reach;
+    if (ends.first != piece.front().ping_index) ends.first.reset();
+    if (ends.last != piece.back().ping_index) ends.last.reset();
+    edit.take_ends(ends, to);
   } else {
     to = add_piece(edit, *from, piece);
   }

@@ -294,6 +294,18 @@ TEST(OneSchool, WhatIsHandedOverIsAPartOfTheOtherAlone) {
   EXPECT_EQ(total(within), kBoth);
 }
 
+// Where a school's propagation had its reach is nothing that a piece from its middle brings along.
+TEST(OneSchool, AMiddlePieceLeavesTheOthersEndsAsTheyAre) {
+  const SchoolKey b = key_b(4);
+  const Acts clicked{{4, reaching(2)}, {4, reaching(1, {b.channel, b.sample})}};
+  ASSERT_EQ(ends(after(clicked), 4), "both");
+  Acts acts = clicked;
+  acts.push_back({4, handing(key_a(4), b, 4, 4)});
+  EXPECT_EQ(ends(after(acts), 4), "both");
+  acts.back() = {4, handing(key_a(4), b, 2, 6)};
+  EXPECT_EQ(ends(after(acts), 4), "both") << "and the ends of what is given whole are its own";
+}
+
 TEST(OneSchool, ADeletedOrRefusedSelectionIsNoPart) {
   const JournalState state = after({{4, reaching(1)}, {4, DeleteCommand{key_a(4)}}});
   EXPECT_EQ(state.schools.size(), 2U);
