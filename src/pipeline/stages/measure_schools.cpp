@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -126,8 +127,8 @@ std::vector<MeasuredMask> measure_ping(const StagedPing& ping, const Engine& eng
   Array3<std::int16_t> sv;
   Array3<std::int16_t> filtered;
   if (extinction.correct) {
-    sv = without_extinction(input.sv, input.background, shadow.gain());
-    filtered = without_extinction(input.filtered, input.background, shadow.gain());
+    sv = without_extinction(input.sv, input.background, shadow.gain(), 1.0);
+    filtered = without_extinction(input.filtered, input.background, shadow.gain(), std::numbers::ln2);
     input.sv = std::as_const(sv).view();
     input.filtered = std::as_const(filtered).view();
   }

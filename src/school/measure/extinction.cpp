@@ -63,7 +63,7 @@ PingGain ping_gain(const MeasureInput& ping, std::span<const PingMask* const> ma
 }
 
 Array3<std::int16_t> without_extinction(View3<const std::int16_t> sv, const Background& background,
-                                        const PingGain& gain) {
+                                        const PingGain& gain, double of_mean) {
   Array3<std::int16_t> out(sv.shape());
   std::copy(sv.all().begin(), sv.all().end(), out.all().begin());
   for (std::size_t row = 0; row < gain.size(); ++row) {
@@ -71,7 +71,7 @@ Array3<std::int16_t> without_extinction(View3<const std::int16_t> sv, const Back
     const RowBackground noise(background, static_cast<int>(row));
     for (std::size_t s = 0; s < gain[row].within.size(); ++s) {
       if (counts[s] == kNoData) continue;
-      const double behind = noise(static_cast<int>(s));
+      const double behind = of_mean * noise(static_cast<int>(s));
       const double echo = behind + gain[row].within[s] * (linear_from_count(counts[s]) - behind);
       counts[s] = echo > 0.0 ? count_from_linear(echo) : kMinCount;
     }

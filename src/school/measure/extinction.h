@@ -35,9 +35,10 @@ using PingGain = std::vector<BeamGain>;  ///< [row]
                                  double most_db);
 
 /// A ping's Sv as it would be without extinction: background + gain x (sv - background).
-/// sv  counts, filtered or not
+/// sv       counts, filtered or not
+/// of_mean  what they are of the mean: 1, and ln 2 of filtered ones, which are medians of Rayleigh fading
 [[nodiscard]] Array3<std::int16_t> without_extinction(View3<const std::int16_t> sv, const Background& background,
-                                                      const PingGain& gain);
+                                                      const PingGain& gain, double of_mean);
 
 /// What extinction does to the schools of a ping, at the ratio and at both ends of its interval.
 class PingShadow {

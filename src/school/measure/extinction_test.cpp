@@ -108,11 +108,28 @@ TEST(Extinction, a_school_behind_another_is_corrected_to_what_it_is) {
   EXPECT_LT(row.extinction_share_low, row.extinction_share);
   EXPECT_GT(row.extinction_share_high, row.extinction_share);
   EXPECT_EQ(row.extinction_corrected, 0.0);
-  const Array3<std::int16_t> corrected = without_extinction(in.sv, in.background, shadow.gain());
+  const Array3<std::int16_t> corrected = without_extinction(in.sv, in.background, shadow.gain(), 1.0);
   for (const int at : {55, 149, 181, 239}) {
     const std::size_t i = static_cast<std::size_t>(at);
     const std::int16_t count = std::as_const(corrected)(10, 12, kFirst + at);
     EXPECT_NEAR(db_from_linear(linear_from_count(count)), db_from_linear(sv[i]), 0.03) << at;
+  }
+}
+
+/// Water alone has no fish whose echo the gain could raise: neither its mean nor its median changes.
+TEST(Extinction, what_is_background_alone_is_left_as_it_is) {
+  test::MeasuredPing scene;
+  constexpr int kRow = 10 * 25 + 12;
+  const Background background{scene.flat.power_db, scene.flat.calibration.view()};
+  const double behind = RowBackground(background, kRow)(400);
+  ASSERT_GT(behind, 0.0);
+  PingGain gain(scene.expected.shape().rows());
+  gain[kRow].within.assign(static_cast<std::size_t>(scene.expected.shape().samples), 3.0);
+  for (const double of_mean : {1.0, std::numbers::ln2}) {
+    Array3<std::int16_t> counts(scene.expected.shape());
+    counts(10, 12, 400) = count_from_linear(of_mean * behind);
+    const Array3<std::int16_t> out = without_extinction(std::as_const(counts).view(), background, gain, of_mean);
+    EXPECT_NEAR(out(10, 12, 400), count_from_linear(of_mean * behind), 2) << of_mean;
   }
 }
 

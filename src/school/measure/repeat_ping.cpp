@@ -10,6 +10,7 @@
 #include "school/detect/noise_level.h"
 #include "school/fading.h"
 #include "school/grow/grow.h"
+#include "school/measure/echo_row.h"
 
 namespace sonar {
 namespace {
@@ -73,6 +74,27 @@ PingRepeater::PingRepeater(const MeasureInput& ping, const PingMask& mask, const
   alike_[0] = alike.fans;
   alike_[1] = alike.beams;
   alike_[2] = alike.samples;
+  echo_of_level_ = echo_of_level();
+}
+
+double PingRepeater::echo_of_level() const {
+  double echo = 0.0;
+  double level = 0.0;
+  for (const Run& run : mask_.runs) {
+    const EchoRow row(ping_, run.row, 1.0);
+    const auto sv = ping_.sv.row(run.row);
+    const auto filtered = ping_.filtered.row(run.row);
+    const int beams = ping_.sector->beams();
+    const double solid_angle = ping_.sector->solid_angle_sr(run.row / beams, run.row % beams);
+    for (int s = run.first_sample; s < run.end(); ++s) {
+      const auto i = static_cast<std::size_t>(s);
+      if (!row.heard(s) || filtered[i] == kNoData) continue;
+      const double volume = solid_angle * ping_.sector->shell_m3_per_sr(s);
+      echo += volume * linear_from_count(sv[i]);
+      level += volume * linear_from_count(filtered[i]);
+    }
+  }
+  return counts_from_db(echo > 0.0 && level > 0.0 ? db_from_linear(echo / level) : -kMedianOfMean_db);
 }
 
 Array3<std::int16_t> PingRepeater::fading(std::uint64_t seed) const {
@@ -204,7 +226,7 @@ PingMask PingRepeater::under_fading(std::uint64_t seed) {
       for (int s = 0; s < box_.samples(); ++s) {
         const auto i = static_cast<std::size_t>(box_.first_sample + s);
         if (was[i] == kNoData) continue;
-        if (sv[i] != kNoData) sv[i] = clamped(was[i] - median_counts + echo(f, b, s));
+        if (sv[i] != kNoData) sv[i] = clamped(was[i] + echo_of_level_ + echo(f, b, s));
         filtered[i] = clamped(was[i] + change(f, b, s));
       }
     }

@@ -9,6 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "base/units.h"
+#include "school/test_ping.h"
+
 namespace sonar {
 namespace {
 
@@ -17,6 +20,12 @@ double error_of(const FigureValues& errors, std::string_view figure) {
     if (kErrorColumns[i].figure == figure) return errors[i];
   }
   return kUnknown;
+}
+
+std::size_t backscatter_at() {
+  std::size_t i = 0;
+  while (kErrorColumns[i].figure != "backscatter_m2") ++i;
+  return i;
 }
 
 SchoolPingRow row_of(double volume_m3) {
@@ -70,6 +79,32 @@ TEST(SchoolErrors, FadingAndThresholdAddInQuadrature) {
   const std::vector<const Repeats*> unknown{&none};
   EXPECT_TRUE(std::isnan(error_of(school_errors(rows, unknown, {}, params), "volume_m3")))
       << "it was not measured again";
+}
+
+// A school hardly larger than the median's box: what it is measured as again is as loud as it was heard. Its filtered level
+// alone is 2.5 dB lower than that.
+TEST(SchoolErrors, RepeatsHoldAsMuchEchoAsTheSchool) {
+  test::MeasuredPing scene;
+  test::Ellipsoid body;
+  body.centre = Sector::direction(rad_from_deg(-22.0), rad_from_deg(268.0)) * 180.0;
+  scene.add(body);
+  const SchoolPingRow row = scene.measured(1);
+  MeasureInput in;
+  in.sv = scene.counts.view();
+  in.filtered = scene.filtered.view();
+  in.flags = scene.flags.view();
+  in.sector = &scene.sector;
+  in.grid = &scene.grid;
+  in.background = {scene.flat.power_db, scene.flat.calibration.view()};
+  in.placement = scene.placement;
+  in.threshold_db = -200.0;  // the mask stays as it is
+  ErrorParams params;
+  params.enabled = true;
+  const Repeats repeats = measure_repeats(in, scene.mask, {}, 10.0, 7, {}, params);
+  ASSERT_EQ(repeats.size(), static_cast<std::size_t>(kRepeats));
+  double mean = 0.0;
+  for (std::size_t k = 0; k < kFadings; ++k) mean += static_cast<double>(repeats[k][backscatter_at()]) / kFadings;
+  EXPECT_NEAR(mean / row.backscatter_m2, 1.0, 0.15) << "of 16 repeats that scatter by 0.15 each";
 }
 
 }  // namespace
