@@ -26,7 +26,8 @@ constexpr PixelSize kSize{400, 300};
 constexpr std::array kKinds{PictureKind::slice_top,   PictureKind::slice_side,      PictureKind::slice_range,
                             PictureKind::slice_plane, PictureKind::volume,          PictureKind::propagation,
                             PictureKind::survey_map,  PictureKind::observation_map, PictureKind::timeline,
-                            PictureKind::echogram,    PictureKind::chart,           PictureKind::report};
+                            PictureKind::echogram,    PictureKind::chart,           PictureKind::lineage,
+                            PictureKind::report};
 
 /// One observation of five pings off Norway with two schools; no raw files.
 class Pictures : public testing::Test {
