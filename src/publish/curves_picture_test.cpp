@@ -86,7 +86,7 @@ TEST(PanelCharts, StandSideBySideEachWithItsOwnAxes) {
 TEST(PanelCharts, WithoutRoomForAllTheRestIsSaidToBeLeftOut) {
   const PanelChartData data = tolerance({school("school 1", false)});
   const PixelSize size{320, 200};
-  const auto chart = panel_chart(data, size, light_theme(size));
+  const auto chart = panel_chart(data, size, light_theme({1200, 500}));  // the text of a larger picture
   ASSERT_TRUE(chart) << to_line(chart.error());
   ASSERT_LT(chart->plots.size(), 3U);
   for (const PanelChart::Place& place : chart->places) EXPECT_LT(place.panel, chart->plots.size());
