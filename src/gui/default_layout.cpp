@@ -63,7 +63,7 @@ void lay_out_small(QMainWindow& window) {
   behind(window, side, {"volume", "range_slice", "plane_slice", "noise_steps"});
   behind(window, time,
          {"echogram", "survey_timeline", "propagation", "schools", "school_pings", "review", "refused", "marks",
-          "chart", "frequency", "lineage"});
+          "chart", "frequency", "curves", "lineage"});
   const int width = window.width();
   const int height = window.height();
   share(window, Qt::Horizontal, {{top, width * 33 / 100}, {side, width * 33 / 100}, {right, width * 34 / 100}});
@@ -98,7 +98,7 @@ void lay_out_docks(QMainWindow& window) {
   behind(window, notes, {"journal"});
   behind(window, maps, {"survey_map"});
   behind(window, time, {"echogram", "survey_timeline", "propagation", "lineage"});
-  behind(window, tables, {"school_pings", "review", "refused", "marks", "chart", "frequency"});
+  behind(window, tables, {"school_pings", "review", "refused", "marks", "chart", "frequency", "curves"});
   const int width = window.width();
   const int height = window.height();
   // The tree's name, time, pings and schools are seen where the views can spare the room.

@@ -108,26 +108,19 @@ class Looking {
     SchoolCurves& to = schools_[school.school_id];
     to.name = fmt::format("school {}", school.school_id);
     to.colour = school_colour(static_cast<int>(school.school_id));
-    PingMask others;
     std::vector<const PingMask*> masks;
-    for (const DrawnMask& one : ping.masks) {
-      masks.push_back(one.mask.get());
-      if (one.school_id != school.school_id) others = unite(others, *one.mask);
-    }
+    for (const DrawnMask& one : ping.masks) masks.push_back(one.mask.get());
+    const MaskInPing in_ping{*school.mask, masks, *ping.staged, sector};
     if (options_.kind.curves.curve == SchoolCurve::distribution) {
-      to.inside.add(*school.mask, *ping.staged, sector);
-      to.outside.add(water_round(*school.mask, masks, *ping.staged, sector), *ping.staged, sector);
+      to.add(in_ping);
       return {};
     }
     const double threshold_db = threshold_of(observation_.product(), school.school_id, ping.ping_index);
     const auto start =
         start_at_strongest(*school.mask, threshold_db, *ping.staged->filtered, observation_.recipe().grow);
     if (!start) return {};
-    auto sizes = growth_sensitivity(*start, *ping.staged, observation_.engine()->filtered(*ping.staged), others, sector,
-                                    tolerance_changes_db(), [this] { return !work_.cancelled(); });
-    if (!sizes) return pass_on(sizes);
-    to.sizes = std::move(*sizes);
-    return {};
+    return to.grow(in_ping, *start, observation_.engine()->filtered(*ping.staged),
+                   [this] { return !work_.cancelled(); });
   }
 
   DrawnObservation& observation_;
@@ -163,12 +156,19 @@ Result<PanelChartData> school_chart(DrawnObservation& observation, const Picture
     if (auto looked = looking.look(index, schools, *sector); !looked) return pass_on(looked);
     work.progress("curves", ++done, static_cast<std::int64_t>(pings.size()));
   }
+  const std::vector<SchoolCurves> made = looking.made();
+  std::vector<std::string> names;
+  for (const std::int64_t school : schools) names.push_back(fmt::format("school {}", school));
+  if (made.empty()) return fail(ErrorCode::not_found, observation.name() + ": " + not_in_ping(names, *pings.begin()));
+  if (asked.curve == SchoolCurve::tolerance && !any_grew(made)) {
+    return fail(ErrorCode::not_found, observation.name() + ": " + why_none_grew(made, *pings.begin()));
+  }
   const std::string words = pings.size() == 1 ? fmt::format("ping {}", *pings.begin())
                                               : fmt::format("{} from {} to {}", count_of(pings.size(), "ping"),
                                                             *pings.begin(), *pings.rbegin());
   return asked.curve == SchoolCurve::distribution
-             ? distribution_chart(looking.made(), observation.title() + ": Sv in schools and round them", words, theme)
-             : tolerance_chart(looking.made(), observation.title() + ": schools over the tolerance", words, theme);
+             ? distribution_chart(made, observation.title() + ": Sv in schools and round them", words, theme)
+             : tolerance_chart(made, observation.title() + ": schools over the tolerance", words, theme);
 }
 
 Result<PanelChartData> pooled_chart(const std::vector<DrawnObservation*>& observations, const PictureOptions& options,
@@ -182,7 +182,72 @@ Result<PanelChartData> pooled_chart(const std::vector<DrawnObservation*>& observ
                          theme);
 }
 
+/// From what schools with sizes were grown.
+std::string grown_words(std::span<const SchoolCurves> schools) {
+  const auto by = [&](bool clicks) {
+    return std::any_of(schools.begin(), schools.end(),
+                       [clicks](const SchoolCurves& one) { return !one.sizes.empty() && one.from_clicks == clicks; });
+  };
+  if (by(true) && by(false)) return "grown again from the clicks that made it, or from its strongest voxel";
+  return by(true) ? "grown again from the clicks that made it" : "grown again from its strongest voxel";
+}
+
+/// A level across the panel.
+ChartCurve level_of(const SchoolCurves& school, double y) {
+  const double first = school.sizes.front().change_db;
+  const double last = school.sizes.back().change_db;
+  return {school.name + " as it is stored", school.colour, true, false, {{first, y}, {last, y}}};
+}
+
+std::string listed(std::span<const std::string> names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 }  // namespace
+
+void SchoolCurves::add(const MaskInPing& in_ping) {
+  const auto& [mask, masks, ping, sector] = in_ping;
+  inside.add(mask, ping, sector);
+  outside.add(water_round(mask, masks, ping, sector), ping, sector);
+}
+
+void SchoolCurves::add(const SchoolCurves& more) {
+  inside.add(more.inside);
+  outside.add(more.outside);
+}
+
+Result<void> SchoolCurves::grow(const MaskInPing& in_ping, const GrowthStart& start, const FilteredPing& filtered,
+                                const std::function<bool()>& go_on) {
+  PingMask others;
+  for (const PingMask* one : in_ping.masks) {
+    if (one != &in_ping.mask) others = unite(others, *one);
+  }
+  auto grown = growth_sensitivity(start, in_ping.ping, filtered, others, in_ping.sector, tolerance_changes_db(), go_on);
+  if (!grown) return pass_on(grown);
+  sizes = std::move(*grown);
+  stored = echo_of(in_ping.mask, in_ping.ping, in_ping.sector);
+  return {};
+}
+
+bool any_grew(std::span<const SchoolCurves> schools) {
+  return std::any_of(schools.begin(), schools.end(), [](const SchoolCurves& one) { return !one.sizes.empty(); });
+}
+
+std::string why_none_grew(std::span<const SchoolCurves> schools, std::int64_t ping_index) {
+  std::vector<std::string> names;
+  for (const SchoolCurves& one : schools) names.push_back(one.name);
+  return fmt::format(
+      "{} cannot be grown again in ping {}: no threshold is known there that the mask was made with, as where it was "
+      "painted; expected a mask that was detected, grown or followed",
+      listed(names), ping_index);
+}
+
+std::string not_in_ping(std::span<const std::string> schools, std::int64_t ping_index) {
+  return fmt::format("{} {} not in ping {}; expected a ping with a mask of the school", listed(schools),
+                     schools.size() == 1 ? "is" : "are", ping_index);
+}
 
 std::vector<double> tolerance_changes_db() {
   std::vector<double> out;
@@ -231,6 +296,9 @@ PanelChartData tolerance_chart(std::span<const SchoolCurves> schools, std::strin
           {size.change_db, ratio_db(size.echo.backscatter_m2, used->echo.backscatter_m2)});
       panels[2].curves.back().points.push_back({size.change_db, size.echo.sv_mean_db});
     }
+    panels[0].curves.push_back(level_of(one, ratio_db(one.stored.volume_m3, used->echo.volume_m3)));
+    panels[1].curves.push_back(level_of(one, ratio_db(one.stored.backscatter_m2, used->echo.backscatter_m2)));
+    panels[2].curves.push_back(level_of(one, one.stored.sv_mean_db));
   }
   for (ChartPanel& panel : panels) {
     panel.marks.push_back({0.0, theme.accent, "tolerance used"});
@@ -241,8 +309,8 @@ PanelChartData tolerance_chart(std::span<const SchoolCurves> schools, std::strin
           fmt::format("backscatter within {:g} dB: {:+g} to {:+g} dB", kPlateau_db, steady->first, steady->second)};
     }
   }
-  return {std::move(title), "grown again from the same seeds, " + ping,
-          "A school that no click made in this ping grows from its strongest voxel down to its own threshold.", 3,
+  return {std::move(title), grown_words(schools) + ", " + ping,
+          "From its strongest voxel a school grows down to the threshold that its mask was made with.", 3,
           std::move(panels)};
 }
 

@@ -64,6 +64,9 @@ std::string idle_text(const AppModel& app, const std::string& dock) {
   if (document.survey() != nullptr && dock == "frequency" && document.nothing_shown().empty()) {
     return "Select a school: its mean Sv stands here, fan by fan, over the fans' frequencies.";
   }
+  if (document.survey() != nullptr && dock == "curves" && document.nothing_shown().empty()) {
+    return "Select a school: how its Sv is distributed stands here, or its size over the tolerance that it grows with.";
+  }
   if (document.survey() != nullptr && dock == "lineage" && document.nothing_shown().empty()) {
     return "Schools stand here over time, a lane each, as soon as there are some.";
   }

@@ -31,6 +31,7 @@ constexpr std::array<Id, 3> kChart{"map.all", "map.depths", "map.no_depths"};
 constexpr std::array<Id, 1> kMap{"map.all"};
 constexpr std::array<Id, 2> kFigures{"chart.columns", "chart.all"};
 constexpr std::array<Id, 1> kOverFrequency{"frequency.choose"};
+constexpr std::array<Id, 1> kOfCurves{"curves.choose"};
 constexpr std::array<Id, 4> kNoiseSteps{"noise.choose", "noise.next", "noise.previous", "noise.all"};
 constexpr std::array<Id, 1> kStrip{"strip.side"};
 constexpr std::array<Id, 5> kEvents{"event.trawl", "event.station", "event.noise", "event.other", "event.bookmark"};
@@ -60,6 +61,7 @@ constexpr std::array<ActionGroup, 5> kLineage{kDecide, kParts, kBad, kMap, kPict
 constexpr std::array<ActionGroup, 4> kEchogram{kEvents, kBad, kEchogramLook, kPicture};
 constexpr std::array<ActionGroup, 3> kCharts{kDecide, kFigures, kPicture};
 constexpr std::array<ActionGroup, 3> kFrequency{kDecide, kOverFrequency, kPicture};
+constexpr std::array<ActionGroup, 3> kCurves{kDecide, kOfCurves, kPicture};
 constexpr std::array<ActionGroup, 2> kNoise{kNoiseSteps, kPicture};
 constexpr std::array<ActionGroup, 3> kTree{kSearch, kResults, kRows};
 constexpr std::array<ActionGroup, 4> kSchoolRows{kDecide, kParts, kReview, kRows};
@@ -111,7 +113,7 @@ struct Menu {
   Id dock;
   std::span<const ActionGroup> groups;
 };
-constexpr std::array<Menu, 23> kMenus{
+constexpr std::array<Menu, 24> kMenus{
     {{"top_slice", kSlice},          {"side_slice", kSlice},        {"range_slice", kSlice},
      {"plane_slice", kPlaneSlice},   {"volume", kVolume},           {"observation_map", kObservationMap},
      {"survey_map", kSurveyMap},     {"propagation", kPropagation}, {"observation_timeline", kTimeline},
@@ -119,7 +121,7 @@ constexpr std::array<Menu, 23> kMenus{
      {"survey_tree", kTree},         {"schools", kSchoolRows},      {"review", kSchoolRows},
      {"school_pings", kPingRows},    {"refused", kRefusedRows},     {"marks", kMarkRows},
      {"journal", kJournal},          {"diagnostics", kNotes},       {"chart", kCharts},
-     {"noise_steps", kNoise},        {"frequency", kFrequency}}};
+     {"noise_steps", kNoise},        {"frequency", kFrequency},     {"curves", kCurves}}};
 
 }  // namespace
 

@@ -90,6 +90,9 @@ std::vector<PanelSection> control_panel(Workspace& workspace) {
   const auto lies = [&workspace] { return workspace.plane.values().lies; };
   const auto mode = [&workspace] { return workspace.select.values().mode; };
   const auto mode_is = [mode](bool paper) { return [mode, paper] { return (mode() == GrowMode::paper) == paper; }; };
+  const auto curve_is = [&workspace](SchoolCurve one) {
+    return [&workspace, one] { return workspace.picture_file.values().kind.curves.curve == one; };
+  };
   PanelSection selection = first_section("Selection", select, kSelection);
   selection.uses = {{"tolerance_db", mode_is(false)}, {"margin_db", mode_is(false)}};
   PanelSection more{
@@ -136,6 +139,12 @@ std::vector<PanelSection> control_panel(Workspace& workspace) {
        .source = pictures,
        .names = {"frequency.one_ping", "frequency.water"},
        .open = false},
+      {.title = "Curves of schools",
+       .source = pictures,
+       .names = {"curves.curve", "curves.one_ping", "curves.over"},
+       .open = false,
+       .uses = {{"curves.one_ping", curve_is(SchoolCurve::distribution)},
+                {"curves.over", curve_is(SchoolCurve::avoidance)}}},
       {.title = "Noise steps", .source = pictures, .names = noise_steps_settings(), .open = false},
       {"Views", views, {}, {}, false},
   };

@@ -39,8 +39,8 @@ TEST(ControlPanel, EverySettingIsThereOnce) {
     for (const Property& one : section.source->properties()) {
       // Of what pictures are asked for, the parts of a chart and of noise steps alone are views'.
       const bool of_pictures = section.source->value("width_px").has_value();
-      const bool of_view =
-          one.name.starts_with("chart.") || one.name.starts_with("frequency.") || one.name.starts_with("noise-steps.");
+      const bool of_view = one.name.starts_with("chart.") || one.name.starts_with("frequency.") ||
+                           one.name.starts_with("curves.") || one.name.starts_with("noise-steps.");
       if (!of_pictures || of_view) there.insert(one.name);
     }
     if (section.names.empty()) {

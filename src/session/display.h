@@ -54,6 +54,7 @@ struct ViewSwitches {
   bool noise_steps = false;
   bool frequency = false;
   bool lineage = false;
+  bool curves = false;
 };
 
 template <class Visitor>
@@ -72,6 +73,8 @@ void describe(Visitor& v, ViewSwitches& p) {
   v.field("frequency", p.frequency, {.text = "the chart of schools over the frequencies of the fans"});
   v.field("noise_steps", p.noise_steps, {.text = "the slice at each step of noise removal"});
   v.field("lineage", p.lineage, {.text = "what became of the observation's schools"});
+  v.field("curves", p.curves,
+          {.text = "curves of schools: Sv in them, their size over the tolerance, or against the ship"});
 }
 
 }  // namespace sonar

@@ -33,7 +33,7 @@ struct ViewName {
   const char* text;
   const char* key;
 };
-constexpr std::array<ViewName, 14> kViews{{{"top_slice", "Slice from above", "Alt+1"},
+constexpr std::array<ViewName, 15> kViews{{{"top_slice", "Slice from above", "Alt+1"},
                                            {"side_slice", "Slice from the side", "Alt+2"},
                                            {"range_slice", "Range slice", "Alt+9"},
                                            {"plane_slice", "Plane slice", "Alt+0"},
@@ -46,7 +46,8 @@ constexpr std::array<ViewName, 14> kViews{{{"top_slice", "Slice from above", "Al
                                            {"chart", "Charts", "Alt+Shift+1"},
                                            {"noise_steps", "Noise steps", "Alt+Shift+2"},
                                            {"frequency", "Schools over frequency", "Alt+Shift+3"},
-                                           {"lineage", "Lineage of schools", "Alt+Shift+4"}}};
+                                           {"lineage", "Lineage of schools", "Alt+Shift+4"},
+                                           {"curves", "Curves of schools", "Alt+Shift+5"}}};
 
 void add_view_switches(AppModel& app) {
   for (const ViewName& view : kViews) {

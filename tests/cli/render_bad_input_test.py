@@ -205,6 +205,7 @@ class BadInput(unittest.TestCase):
             (["--y", "depth_m"], "survey-map", "chart"),
             (["--after", "median"], "slice-top", "noise-steps"),
             (["--no-water"], "chart", "frequency"),
+            (["--curve", "tolerance"], "chart", "curves"),
         ]
         for option, kind, suits in unsuited:
             with self.subTest(option=option[0], kind=kind):
@@ -216,6 +217,16 @@ class BadInput(unittest.TestCase):
                      says=["--beam", "--of-fan", "together"])
         self.refused("timeline", *BOTH, "--whole-survey", "--observation", "obs-0001", "--out", sonarx.WORK / "bad.png",
                      code=2, says=["--observation", "--whole-survey"])
+
+    def test_a_ping_without_the_school_has_no_curve(self):
+        rows = sonarx.read_csv(sonarx.OUT / "school_pings.csv")
+        there = {(row["observation"], row["school_id"], row["ping_index"]) for row in rows}
+        absent = next((o, s, p) for o, p in sorted({(o, p) for o, _, p in there})
+                      for s in sorted({s for other, s, _ in there if other == o}) if (o, s, p) not in there)
+        for options in (["--curve", "tolerance"], ["--one-ping"]):
+            self.refused("curves", *BOTH, "--observation", absent[0], "--schools", absent[1], "--ping", absent[2], *options,
+                         "--out", sonarx.WORK / "bad.png", code=1,
+                         says=[absent[0], f"school {absent[1]} is not in ping {absent[2]}", "expected"])
 
     def test_every_option_is_taken_by_the_kinds_it_suits(self):
         picture = [*SIZE, "--out", sonarx.WORK / "taken.png"]
@@ -234,6 +245,7 @@ class BadInput(unittest.TestCase):
                                                "impulse-noise", "--map", "grey", "--low-db", "-70", "--no-mark"]),
                               ("noise-steps", ["--slice", "range", "--range-m", "150", "--mark-db", "3", "--no-masks"]),
                               ("frequency", ["--observation", "obs-0001", "--schools", "1", "--no-water"]),
+                              ("curves", ["--observation", "obs-0001", "--schools", "1", "--one-ping"]),
                               ("lineage", ["--observation", "obs-0001", "--schools", "1"]),
                               ("volume", ["--frames", "0", "--unfiltered", "--no-context", "--fuzzy", "0.1"])):
             with self.subTest(kind):

@@ -241,6 +241,18 @@ class Files(sonarx.Case):
         self.assertEqual((code, error), (0, ""), out)
         return [html.unescape(text) for text in re.findall(r"<text [^>]*>([^<]*)</text>", file.read_text(encoding="utf-8"))]
 
+    def test_curves_of_schools(self):
+        said = self.words("curves", *BOTH, "--schools", "1")
+        for words in ("school 1", "water round school 1", "mean background there", "share of the volume (% per dB)"):
+            self.assertIn(words, said)
+        said = self.words("curves", *BOTH, "--curve", "tolerance", "--schools", "1")
+        for words in ("school 1 as it is stored", "tolerance used", "volume (dB re that used)", "backscatter (dB re that used)"):
+            self.assertIn(words, said)
+        self.assertTrue(any(words.startswith("grown again from its strongest voxel, ping ") for words in said), said)
+        said = self.words("curves", sonarx.OUT, "--curve", "avoidance", "--over", "range")
+        self.assertIn("range from the ship (m)", said)
+        self.assertNotIn("bearing from the bow (degrees)", said)
+
     def test_what_is_so_anyway_may_be_said(self):
         pictures = [sonarx.WORK / f"said-{n}.png" for n in (1, 2)]
         for picture, said in zip(pictures, ([], ["--lighting", "--context", "--masks"])):

@@ -58,7 +58,7 @@ TEST_F(Docks, EveryViewThatIsOffComputesNothing) {
   std::set<std::string> switches;
   for (const PictureDock& one : app_->pictures) switches.insert(one.view_switch);
   switches.erase("");
-  ASSERT_EQ(switches.size(), 14U);
+  ASSERT_EQ(switches.size(), 15U);
   for (const std::string& name : switches) ASSERT_TRUE(!!workspace().views.set(name, false));
   settle();
   for (const PictureDock& one : app_->pictures) {
@@ -120,7 +120,8 @@ TEST_F(Docks, ASmallScreenHasRoomForEveryView) {
   const Target target = look_at_school();
   click("top_slice", place_in("top_slice", target.voxel));  // without a school there is nothing to chart
   for (const SliceKind kind : kSliceKinds) switch_on(workspace(), kind);
-  for (const char* view : {"noise_steps", "frequency", "lineage"}) ASSERT_TRUE(!!workspace().views.set(view, true));
+  for (const char* view : {"noise_steps", "frequency", "lineage", "curves"})
+    ASSERT_TRUE(!!workspace().views.set(view, true));
   settle();
   for (const QSize size : {QSize(1280, 800), QSize(1366, 768)}) {
     window_->resize(size);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Schools over the frequencies of the fans, by key and mouse.
+// Schools over the frequencies of the fans, and their curves, by key and mouse.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <QCheckBox>
+#include <QComboBox>
 
+#include "session/charts/curves_model.h"
 #include "session/charts/frequency_model.h"
 #include "window_at_work.h"
 
@@ -42,6 +44,28 @@ TEST_F(FrequencyInTheWindow, TheClickedSchoolStandsInAChartOverFrequency) {
   EXPECT_FALSE(chart().sight()) << "nothing is selected";
   key(Qt::Key_3, Qt::AltModifier | Qt::ShiftModifier);
   EXPECT_TRUE(dock("frequency")->isHidden());
+}
+
+TEST_F(FrequencyInTheWindow, CurvesOfTheClickedSchoolStandBesideIt) {
+  const auto curves = [this]() -> CurvesModel& { return dynamic_cast<CurvesModel&>(*app_->picture("curves")); };
+  EXPECT_TRUE(dock("curves")->isHidden());
+  key(Qt::Key_5, Qt::AltModifier | Qt::ShiftModifier);
+  ASSERT_FALSE(dock("curves")->isHidden());
+  const Target target = look_at_school();
+  click("top_slice", place_in("top_slice", target.voxel));
+  raise("curves");
+  ASSERT_TRUE(curves().sight()) << curves().problem();
+  EXPECT_EQ(curves().sight()->data.panels.size(), 1U);
+  keep_picture("curves");
+  auto* which = window_->findChild<QComboBox*>("curves.curve");
+  ASSERT_NE(which, nullptr);
+  which->setCurrentIndex(static_cast<int>(SchoolCurve::tolerance));
+  settle();
+  EXPECT_EQ(curves().problem(), "");
+  EXPECT_EQ(curves().sight()->data.panels.size(), 3U);
+  keep_picture("curves-tolerance");
+  key(Qt::Key_5, Qt::AltModifier | Qt::ShiftModifier);
+  EXPECT_TRUE(dock("curves")->isHidden());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "session/app_parts.h"
 #include "session/charts/chart_model.h"
+#include "session/charts/curves_model.h"
 #include "session/charts/frequency_model.h"
 
 namespace sonar {
@@ -40,6 +41,17 @@ void add_charts(AppModel& app) {
                    }});
   app.pictures.push_back(
       {"frequency", "Frequency", DockPlace::bottom, "frequency", std::make_unique<FrequencyModel>(workspace)});
+  app.actions.add(
+      {.id = "curves.choose",
+       .menu = kMenu,
+       .text = "Curves of schools...",
+       .keys = {},
+       .tip = "Which curves are shown: of Sv in schools, of their size over the tolerance, or against the ship",
+       .run = [&app] {
+         (void)asked(app, "Curves of schools", app.workspace.picture_file,
+                     {"curves.curve", "curves.one_ping", "curves.over"});
+       }});
+  app.pictures.push_back({"curves", "Curves", DockPlace::bottom, "curves", std::make_unique<CurvesModel>(workspace)});
 }
 
 }  // namespace sonar

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "publish/frequency_picture.h"
+#include "session/charts/school_looks.h"
 #include "session/listening.h"
 #include "session/live_picture.h"
 #include "session/workspace.h"
@@ -18,8 +19,6 @@ struct FrequencySight {
   FrequencyChartData data;
   PanelChart chart;
 };
-
-class HeardSchools;
 
 /// The selected schools over the frequencies of their fans, of all their pings or of the ping on show
 /// (picture_file.kind.frequency), and the water round them. Pings are looked at behind the window, one after the other: the
@@ -42,7 +41,7 @@ class FrequencyModel : public LivePicture {
 
   Workspace& workspace_;
   FrequencyParams asked_;
-  std::shared_ptr<HeardSchools> heard_;  ///< of builds, those of panels too
+  std::shared_ptr<HeardSchools<SchoolFans>> heard_;  ///< of builds, those of panels too
   std::shared_ptr<const FrequencySight> sight_;
   Listening listening_;  // the last member: it ends first
 };
