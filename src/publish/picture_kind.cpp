@@ -7,7 +7,7 @@
 namespace sonar {
 
 std::span<const PictureKindInfo> picture_kinds() {
-  static constexpr std::array<PictureKindInfo, 16> kinds{{
+  static constexpr std::array<PictureKindInfo, 17> kinds{{
       {"slice-top", "one fan from above, every cell with its own value"},
       {"slice-side", "one vertical fan from the side"},
       {"slice-range", "all beams at one range"},
