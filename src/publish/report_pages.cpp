@@ -171,7 +171,8 @@ void ReportPages::add_row(std::span<const Captioned> pictures, double cell_px) {
 void ReportPages::table(const CsvTable& table, const std::string& caption, std::size_t most) {
   const std::size_t rows = std::min(most, table.records.size());
   const auto blocks = column_blocks(table, rows, kWidth, kSmall_px);
-  keep_together(kHeads_px + 2.0 * kLine * kText_px);
+  const double lines = static_cast<double>(text_lines(caption, kWidth, kText_px).size()) + 2.0;
+  keep_together(kHeads_px + kLine * kText_px * lines);
   paragraph(caption);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     if (blocks.size() > 1) {
