@@ -20,14 +20,17 @@
 #include "publish/picture.h"
 #include "publish/picture_output.h"
 #include "publish/report_html.h"
+#include "publish/report_pages.h"
 #include "render/compare_pictures.h"
 #include "render/draw_frame.h"
 
 namespace sonar {
 namespace {
 
-/// A report in HTML: pages, not a picture.
-bool is_page(const RenderArguments& arguments) { return arguments.kind == "report" && is_report_html(arguments.out); }
+/// A report of many pages, not a picture.
+bool is_whole_report(const RenderArguments& arguments) {
+  return arguments.kind == "report" && (arguments.whole || is_report_html(arguments.out));
+}
 
 /// What would be found out only after the drawing.
 Result<void> check_output(const RenderArguments& arguments) {
@@ -38,9 +41,10 @@ Result<void> check_output(const RenderArguments& arguments) {
     if (auto place = require_place(name); !place) return place;
   }
   const bool movie = arguments.kind == "movie";
-  if (is_page(arguments)) {
+  if (is_whole_report(arguments)) {
     if (arguments.reference.empty()) return {};
-    return fail(ErrorCode::usage, "a report in HTML is no picture to be compared; expected .png, .svg or .pdf",
+    return fail(ErrorCode::usage,
+                "a whole report is no picture to be compared; expected .png, .svg or .pdf without --whole",
                 {arguments.out});
   }
   if (movie && !is_movie_file(arguments.out)) {
@@ -139,19 +143,20 @@ Result<void> print_picture(const FrameDescription& frame, double scale) {
   return {};
 }
 
-Result<void> write_page(const RenderArguments& arguments, Work& work) {
+Result<void> write_whole_report(const RenderArguments& arguments, Work& work) {
   const auto options = picture_options(arguments);
   if (!options) return pass_on(options);
   const auto source = source_of(arguments, work);
   if (!source) return pass_on(source);
   const std::vector<std::filesystem::path> paths(arguments.paths.begin(), arguments.paths.end());
-  const auto page = report_html(**source, paths, *options, work);
-  if (!page) return pass_on(page);
-  return write_file(arguments.out, *page);
+  const auto report = is_report_html(arguments.out) ? report_html(**source, paths, *options, work)
+                                                    : report_pdf(**source, paths, *options, work);
+  if (!report) return pass_on(report);
+  return write_file(arguments.out, *report);
 }
 
-int render_page(const RenderArguments& arguments, Work& work) {
-  const auto written = write_page(arguments, work);
+int render_whole_report(const RenderArguments& arguments, Work& work) {
+  const auto written = write_whole_report(arguments, work);
   clear_progress();
   if (!written) return report(written.error());
   fmt::print("{}\n", arguments.out);
@@ -163,7 +168,7 @@ int render_verb(const RenderArguments& arguments) {
   const CancelOnInterrupt watch(work);
   show_progress(work);
   if (arguments.kind == "movie") return render_movie(arguments, work);
-  if (is_page(arguments)) return render_page(arguments, work);
+  if (is_whole_report(arguments)) return render_whole_report(arguments, work);
   const auto frame = frame_of(arguments, work);
   clear_progress();
   if (!frame) return report(frame.error());

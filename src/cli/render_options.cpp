@@ -88,6 +88,9 @@ void add_common(CLI::App& verb, RenderArguments& a) {
             ->check(named_path("FOLDER")),
         "slice- volume");
   suits(verb.add_flag("--quick", a.quick, "From the first and last bytes of each raw file alone"), "survey-map");
+  suits(verb.add_flag("--whole", a.whole,
+                      "As .pdf too the whole report on as many pages as it needs; .html is whole anyway"),
+        "report");
   verb.add_option("-j,--jobs", a.jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));
 }
 

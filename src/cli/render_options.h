@@ -20,6 +20,7 @@ struct RenderArguments {
   std::string recipe;
   std::string against;  ///< work folder of another reader
   bool quick = false;
+  bool whole = false;  ///< of a report: as a PDF too
   std::string out;
   int jobs = 0;
 

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "cli/render_options.h"
+#include "io/recordings.h"
+#include "publish/report_html.h"
 
 namespace sonar {
 
@@ -18,7 +20,11 @@ std::optional<UnsuitedOption> unsuited_in_whole(const CLI::App& verb, const Rend
   const auto given = [&](const std::string& option) { return verb.get_option(option)->count() > 0; };
   if (arguments.kind == "report") {
     for (const char* option : {"--size", "--schools"}) {
-      if (given(option)) return UnsuitedOption{option, "no option of report, which is one A4 page of the whole survey"};
+      if (given(option))
+        return UnsuitedOption{option, "no option of report, which is on A4 pages and of the whole survey"};
+    }
+    if (arguments.whole && !has_ending(arguments.out, ".pdf") && !is_report_html(arguments.out)) {
+      return UnsuitedOption{"--whole", "goes with a name that ends in .pdf or .html; expected one with --out"};
     }
   }
   if (arguments.kind != "movie") return std::nullopt;

@@ -55,21 +55,28 @@ std::string time_of(const std::vector<DrawnObservation*>& observations) {
   return span ? iso_time(span->first) + "/" + iso_time(span->second) : "";
 }
 
+PictureOrigin origin_of(const PictureSource& source, const std::vector<DrawnObservation*>& drawn) {
+  return {"Sonar Explorer " SONAR_VERSION, recipe_hash(source.recipe()), time_of(drawn)};
+}
+
+std::vector<DrawnObservation*> all_of(PictureSource& source) {
+  std::vector<DrawnObservation*> all;
+  for (DrawnObservation& one : source.observations()) all.push_back(&one);
+  return all;
+}
+
 Result<std::vector<DrawnObservation*>> drawn_of(PictureKind kind, PictureSource& source, const std::string& observation,
                                                 const PictureOptions& options) {
-  std::vector<DrawnObservation*> drawn;
   const bool all =
       kind == PictureKind::survey_map || kind == PictureKind::report ||
       (observation.empty() && (kind == PictureKind::chart ||
                                (kind == PictureKind::curves && options.kind.curves.curve == SchoolCurve::avoidance)));
   if (all || (kind == PictureKind::timeline && options.kind.timeline.whole_survey)) {
-    for (DrawnObservation& one : source.observations()) drawn.push_back(&one);
-    return drawn;
+    return all_of(source);
   }
   const auto chosen = source.observation(observation);
   if (!chosen) return pass_on(chosen);
-  drawn.push_back(*chosen);
-  return drawn;
+  return std::vector<DrawnObservation*>{*chosen};
 }
 
 Result<FrameDescription> frame_of(PictureKind kind, PictureSource& source, const std::vector<DrawnObservation*>& drawn,
@@ -92,8 +99,10 @@ Result<FrameDescription> picture_frame(PictureKind kind, PictureSource& source, 
   const auto drawn = drawn_of(kind, source, observation, options);
   if (!drawn) return pass_on(drawn);
   auto frame = frame_of(kind, source, *drawn, options, work);
-  if (frame) frame->origin = {"Sonar Explorer " SONAR_VERSION, recipe_hash(source.recipe()), time_of(*drawn)};
+  if (frame) frame->origin = origin_of(source, *drawn);
   return frame;
 }
+
+PictureOrigin survey_origin(PictureSource& source) { return origin_of(source, all_of(source)); }
 
 }  // namespace sonar

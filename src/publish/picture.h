@@ -16,4 +16,7 @@ namespace sonar {
                                                      const std::string& observation, const PictureOptions& options,
                                                      Work& work);
 
+/// Where what is made of all observations is from.
+[[nodiscard]] PictureOrigin survey_origin(PictureSource& source);
+
 }  // namespace sonar

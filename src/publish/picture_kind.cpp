@@ -27,7 +27,8 @@ std::span<const PictureKindInfo> picture_kinds() {
       {"lineage", "what became of an observation's schools: born, split, merged, lost and seen again, a lane each"},
       {"movie", "one of the kinds that show a ping, moving: over pings, round a ping, or along the track"},
       {"report",
-       "the survey on one page: map, timeline, strongest schools and what the numbers mean; as .html the whole of it"},
+       "the survey on one page: map, timeline, strongest schools and what the numbers mean; as .html, or .pdf with "
+       "--whole, the whole of it"},
   }};
   return kinds;
 }

@@ -47,18 +47,18 @@ cairo_status_t append(void* text, const unsigned char* bytes, unsigned int count
   return CAIRO_STATUS_SUCCESS;
 }
 
-Result<std::string> drawn(CairoSurface surface, const FrameDescription& frame, double units_per_pixel,
-                          std::string& bytes) {
-  {
-    const CairoContext context(cairo_create(surface.get()));
-    cairo_scale(context.get(), units_per_pixel, units_per_pixel);
-    draw_items(context.get(), frame, {units_per_pixel, true});
-    cairo_show_page(context.get());
-    if (auto ok = sound(cairo_status(context.get())); !ok) return pass_on(ok);
-  }
-  cairo_surface_finish(surface.get());
-  if (auto ok = sound(cairo_surface_status(surface.get())); !ok) return pass_on(ok);
-  return std::move(bytes);
+Result<void> draw_page(cairo_surface_t* surface, const FrameDescription& frame, double units_per_pixel) {
+  const CairoContext context(cairo_create(surface));
+  cairo_scale(context.get(), units_per_pixel, units_per_pixel);
+  draw_items(context.get(), frame, {units_per_pixel, true});
+  cairo_show_page(context.get());
+  return sound(cairo_status(context.get()));
+}
+
+/// Writes what is left; only then are the bytes all there.
+Result<void> finish(cairo_surface_t* surface) {
+  cairo_surface_finish(surface);
+  return sound(cairo_surface_status(surface));
 }
 
 bool any_smooth(const FrameDescription& frame) {
@@ -91,23 +91,11 @@ Result<std::string> svg_of(const FrameDescription& frame, double wanted_scale) {
   const auto [scale, width, height] = vector_size(frame, kWebDotsPerInch, wanted_scale);
   CairoSurface surface(cairo_svg_surface_create_for_stream(append, &bytes, width, height));
   cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
-  auto svg = drawn(std::move(surface), frame, scale, bytes);
-  if (!svg) return svg;
+  if (auto drawn = draw_page(surface.get(), frame, scale); !drawn) return pass_on(drawn);
+  if (auto finished = finish(surface.get()); !finished) return pass_on(finished);
   const std::string named =
-      searchable_svg(titled_svg(renumbered_svg(*svg), frame.title, origin_sentence(frame.origin)), frame, scale);
+      searchable_svg(titled_svg(renumbered_svg(bytes), frame.title, origin_sentence(frame.origin)), frame, scale);
   return any_smooth(frame) ? named : pixelated_svg(named);
-}
-
-Result<std::string> pdf_of(const FrameDescription& frame, double wanted_scale) {
-  std::string bytes;
-  const auto [scale, width, height] = vector_size(frame, kPointsPerInch, wanted_scale);
-  CairoSurface surface(cairo_pdf_surface_create_for_stream(append, &bytes, width, height));
-  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, frame.title.c_str());
-  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATOR, frame.origin.program.c_str());
-  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_SUBJECT, origin_sentence(frame.origin).c_str());
-  auto pdf = drawn(std::move(surface), frame, scale, bytes);
-  if (!pdf) return pdf;
-  return undated_pdf(std::move(*pdf));
 }
 
 /// In small letters.
@@ -136,6 +124,26 @@ bool is_picture_file(const std::filesystem::path& file) {
   return ending == ".png" || ending == ".svg" || ending == ".pdf";
 }
 
+Result<std::string> pdf_bytes(std::span<const FrameDescription> pages, double wanted_scale) {
+  if (pages.empty()) return fail(ErrorCode::bad_parameter, "a PDF of no page; expected one at least");
+  for (const FrameDescription& page : pages) {
+    if (const auto size = scaled_size(page, wanted_scale); !size) return pass_on(size);
+  }
+  const FrameDescription& first = pages.front();
+  std::string bytes;
+  const CairoSurface surface(cairo_pdf_surface_create_for_stream(append, &bytes, 1.0, 1.0));
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, first.title.c_str());
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATOR, first.origin.program.c_str());
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_SUBJECT, origin_sentence(first.origin).c_str());
+  for (const FrameDescription& page : pages) {
+    const auto [scale, width, height] = vector_size(page, kPointsPerInch, wanted_scale);
+    cairo_pdf_surface_set_size(surface.get(), width, height);
+    if (auto drawn = draw_page(surface.get(), page, scale); !drawn) return pass_on(drawn);
+  }
+  if (auto finished = finish(surface.get()); !finished) return pass_on(finished);
+  return undated_pdf(std::move(bytes));
+}
+
 Result<std::string> picture_bytes(const FrameDescription& frame, const std::filesystem::path& file, double scale) {
   const std::string ending = picture_ending(file);
   if (ending != ".png" && ending != ".svg" && ending != ".pdf") {
@@ -155,7 +163,7 @@ Result<std::string> picture_bytes(const FrameDescription& frame, const std::file
                           {"Recipe", frame.origin.recipe_hash},
                           {"Data Time", frame.origin.data_time}});
   }
-  return ending == ".svg" ? svg_of(frame, scale) : pdf_of(frame, scale);
+  return ending == ".svg" ? svg_of(frame, scale) : pdf_bytes({&frame, 1}, scale);
 }
 
 }  // namespace sonar

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "base/result.h"
@@ -21,6 +22,10 @@ namespace sonar {
 /// errors  usage (another ending), bad_parameter
 [[nodiscard]] Result<std::string> picture_bytes(const FrameDescription& frame, const std::filesystem::path& file,
                                                 double scale = 1.0);
+
+/// A PDF of these pages in their order, each as large as it is; title and origin are those of the first.
+/// errors  bad_parameter: no page; as draw_frame()
+[[nodiscard]] Result<std::string> pdf_bytes(std::span<const FrameDescription> pages, double scale = 1.0);
 
 /// errors  bad_parameter: no pixels
 [[nodiscard]] Result<std::string> png_bytes(const Image& image);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "render/draw_frame.h"
 
@@ -36,6 +38,47 @@ TEST(PageFiles, APageOfAnyResolutionIsAsLargeOnPaperInEveryFormat) {
   EXPECT_NEAR(number_behind(svg, "height=\"") / 96.0 * 25.4, 120.0, 0.05);
   const std::string pdf = picture_bytes(frame, "a.pdf").value();
   EXPECT_NEAR(number_behind(pdf, "/MediaBox [ 0 0 ") / 72.0 * 25.4, 180.0, 0.05);
+}
+
+/// How often "/Type /WORD" stands in a PDF, and no longer word that begins so.
+std::size_t objects_of(const std::string& pdf, const std::string& word) {
+  std::size_t count = 0;
+  const std::string type = "/Type /" + word;
+  for (std::size_t at = pdf.find(type); at != std::string::npos; at = pdf.find(type, at + 1)) {
+    count += std::isalpha(static_cast<unsigned char>(pdf[at + type.size()])) == 0 ? 1U : 0U;
+  }
+  return count;
+}
+
+TEST(PageFiles, APdfHasAsManyPagesAsItIsGivenEachOfItsSize) {
+  std::vector<FrameDescription> pages(3);
+  pages[0].size = {96, 192};
+  pages[1].size = {288, 96};
+  pages[2].size = {96, 192};
+  pages[0].title = "the first";
+  pages[1].title = "the second";
+  const auto pdf = pdf_bytes(pages);
+  ASSERT_TRUE(pdf) << to_line(pdf.error());
+  EXPECT_EQ(objects_of(*pdf, "Page"), 3U);
+  EXPECT_NE(pdf->find("/Count 3"), std::string::npos);
+  // An inch is 72 points.
+  const std::size_t first = pdf->find("/MediaBox [ 0 0 72 144 ]");
+  const std::size_t second = pdf->find("/MediaBox [ 0 0 216 72 ]");
+  ASSERT_NE(first, std::string::npos);
+  ASSERT_NE(second, std::string::npos);
+  EXPECT_LT(first, second);
+  EXPECT_NE(pdf->find("/MediaBox [ 0 0 72 144 ]", second), std::string::npos);
+  EXPECT_NE(pdf->find("the first"), std::string::npos);
+  EXPECT_EQ(pdf->find("the second"), std::string::npos);
+  EXPECT_EQ(pdf_bytes(pages).value(), *pdf) << "no date, and no counter of the process";
+  EXPECT_EQ(pdf_bytes({pages.data(), 1}).value(), picture_bytes(pages[0], "a.pdf").value());
+}
+
+TEST(PageFiles, APdfOfNoPageOrOfOneWithoutSizeIsRefused) {
+  EXPECT_EQ(pdf_bytes({}).error().code, ErrorCode::bad_parameter);
+  std::vector<FrameDescription> pages(2);
+  pages[0].size = {96, 96};
+  EXPECT_EQ(pdf_bytes(pages).error().code, ErrorCode::bad_parameter);
 }
 
 // One pixel of each colour in turn: where four of them become one, it is their mean, not one of them.

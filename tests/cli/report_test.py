@@ -53,6 +53,29 @@ class Report(sonarx.Case):
         self.assertEqual(text.count("\f"), 1, "one page")
         self.assertIn("obs-0001/1", text)
 
+    def test_the_whole_of_it_is_many_pages(self):
+        file = self.fresh("report-whole") / "report.pdf"
+        self.sonarx("render", "report", sonarx.OUT, "--whole", "--out", file)
+        data = file.read_bytes()
+        pages = len(re.findall(rb"/Type /Page\b", data))
+        self.assertGreater(pages, 5)
+        self.assertIn(b"/Count %d" % pages, data)
+        self.assertEqual(set(re.findall(rb"/MediaBox \[ 0 0 (\d+)\.\d+ (\d+)\.\d+ \]", data)), {(b"595", b"842")})
+        if shutil.which("pdftotext") is None:
+            self.skipTest("there is no pdftotext")
+        text = subprocess.run(["pdftotext", "-layout", file, "-"], capture_output=True, text=True, check=True).stdout
+        for words in ("SYNTHETIC", "Charts", "The strongest schools", "Recipe", "What the columns are", f"page {pages} of {pages}"):
+            self.assertIn(words, text)
+
+    def test_the_whole_goes_with_files_of_many_pages(self):
+        for name in ("x.svg", "x.png", "-"):
+            self.one_line_error("render", "report", sonarx.OUT, "--whole", "--out", name, code=2,
+                                names="--whole: goes with a name that ends in .pdf or .html")
+        self.one_line_error("render", "survey-map", sonarx.OUT, "--whole", "--out", sonarx.WORK / "x.pdf", code=2,
+                            names="--whole: no option of survey-map")
+        self.one_line_error("render", "report", sonarx.OUT, "--whole", "--out", sonarx.WORK / "x.pdf", "--reference",
+                            sonarx.OUT / "survey.json", code=2, names="a whole report is no picture to be compared")
+
     def test_what_does_not_suit_a_page_is_refused(self):
         for option in (["--size", "640x480"], ["--schools", "1"], ["--ping", "3"]):
             self.one_line_error("render", "report", sonarx.OUT, *option, "--out", sonarx.WORK / "x.pdf", code=2,
