@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <QClipboard>
 #include <QDialogButtonBox>
 #include <QElapsedTimer>
 #include <QFileDialog>
@@ -46,10 +47,13 @@ class DialogsByHand : public WindowAtWork {
     looks.setInterval(5);
     QObject::connect(&looks, &QTimer::timeout, window_.get(), [&] {
       auto* dialog = qobject_cast<Dialog*>(QApplication::activeModalWidget());
-      if (dialog == nullptr || !dialog->isVisible()) return;  // not yet
+      if (dialog == nullptr || !dialog->isVisible()) return;           // not yet
+      if (!dialog->isActiveWindow()) return dialog->activateWindow();  // keys go to the window that is active
       looks.stop();
       answered = true;
       answer(*dialog);
+      EXPECT_FALSE(dialog->isVisible()) << "nothing ended it";
+      if (dialog->isVisible()) dialog->reject();
     });
     looks.start();
     QAction* entry = find_action(*window_, id);
@@ -58,14 +62,18 @@ class DialogsByHand : public WindowAtWork {
     EXPECT_TRUE(click_in(*bar, bar->actions(), *entry)) << id << " is in no menu";
     while (!answered && waited.elapsed() < 4000) QApplication::processEvents(QEventLoop::WaitForMoreEvents, 50);
     EXPECT_TRUE(answered) << id << " opened no dialog";
+    window_->activateWindow();
+    EXPECT_TRUE(QTest::qWaitForWindowActive(window_.get()));
     settle();
   }
-  static void type_path(QFileDialog& dialog, const fs::path& path) {
+  /// Pasted: what is typed letter by letter Qt's own dialog completes to folders on the way, and chooses these too.
+  static void paste_path(QFileDialog& dialog, const fs::path& path) {
     auto* edit = dialog.findChild<QLineEdit*>("fileNameEdit");
     ASSERT_NE(edit, nullptr);
     edit->setFocus();
     edit->selectAll();
-    QTest::keyClicks(edit, QString::fromStdString(path.string()));
+    QApplication::clipboard()->setText(QString::fromStdString(path.string()));
+    QTest::keyClick(edit, Qt::Key_V, Qt::ControlModifier);
   }
   static void press_button(const QDialog& dialog, QDialogButtonBox::StandardButton which) {
     auto* button = dialog.findChild<QDialogButtonBox*>()->button(which);
@@ -105,7 +113,7 @@ std::string text_of(const fs::path& file) {
 TEST_F(DialogsByHand, TheReportIsSavedWhereTheDialogSays) {
   choose<QFileDialog>("export.report", [this](QFileDialog& dialog) {
     EXPECT_EQ(dialog.fileMode(), QFileDialog::Directory);
-    type_path(dialog, out_);
+    paste_path(dialog, out_);
     press_button(dialog, QDialogButtonBox::Open);
   });
   EXPECT_EQ(told(), "written: " + (out_ / "report.pdf").string());
@@ -128,7 +136,7 @@ TEST_F(DialogsByHand, ACalibrationTableIsChosenAndIsInForce) {
   choose<QFileDialog>("file.calibration", [](QFileDialog& dialog) { press_button(dialog, QDialogButtonBox::Cancel); });
   EXPECT_FALSE(document().shown()->recalibrated()) << "declined";
   choose<QFileDialog>("file.calibration", [&](QFileDialog& dialog) {
-    type_path(dialog, table);
+    paste_path(dialog, table);
     press_button(dialog, QDialogButtonBox::Open);
   });
   ASSERT_TRUE(document().shown()->recalibrated()) << told();
