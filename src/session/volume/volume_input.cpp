@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "publish/between_pings.h"
+#include "publish/volume_figure.h"
 #include "session/refused_layer.h"
 #include "session/screen_theme.h"
 #include "session/slices/school_layers.h"
@@ -69,9 +70,9 @@ void move_ship(LiveVolumeInput& input, const PingNavigation& next, double fracti
   const PingNavigation from = input.navigation;
   input.navigation = navigation_between(from, next, fraction);
   input.towards_next = fraction;
-  const PixelSize size = input.options.size;
-  if (!input.options.volume.earth_fixed || size.width < 1 || size.height < 1) return;
-  const Camera eye = input.options.camera ? *input.options.camera : overview(*input.sector, size);
+  const auto place = volume_place(input.options, input.scale);
+  if (!input.options.volume.earth_fixed || !place) return;
+  const Camera eye = input.options.camera ? *input.options.camera : overview(*input.sector, place->rays);
   if (const auto stands = standing_still(eye, from, input.navigation)) input.options.camera = stands;
 }
 
@@ -96,6 +97,7 @@ std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const st
   input.options.dark = look.dark;
   input.options.transfer = workspace.view_curve();
   input.options.camera = camera;
+  input.scale = look.scale;
   input.next = moves_to(workspace, look);
   std::int64_t nearer = input.staged->ping_index;  // whose schools are shown
   if (input.next) {
@@ -110,7 +112,6 @@ std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const st
   input.fan = std::clamp(workspace.slices().fan, 0, shown->sector().fans() - 1);
   input.beam = std::clamp(workspace.slices().beam, 0, shown->sector().beams() - 1);
   input.scale_bar = workspace.curve_follows_scale();
-  input.scale = look.scale;
   input.moving_budget_s = workspace.volume.values().moving_budget_ms / 1e3;
   if (trail_params(input.options.volume).any()) {
     input.trails = trail_subject(workspace, shown, theme_of(input.options));
