@@ -56,6 +56,15 @@ Array3<std::int16_t> counts_between(const Array3<std::int16_t>& a, const Array3<
   return out;
 }
 
+std::shared_ptr<const StagedPing> staged_between(const StagedPing& a, const StagedPing& b, double fraction,
+                                                 Work& work) {
+  auto staged = std::make_shared<StagedPing>(fraction < 0.5 ? a : b);
+  staged->sv.counts = counts_between(a.sv.counts, b.sv.counts, fraction, work);
+  staged->filtered = std::make_shared<Volume>(
+      Volume{counts_between(a.filtered->counts, b.filtered->counts, fraction, work), staged->filtered->flags});
+  return staged;
+}
+
 Result<DrawnPing> drawn_ping(DrawnObservation& observation, std::int64_t ping_index, const PictureOptions& options,
                              Work& work) {
   auto first = observation.ping(ping_index, work);
@@ -65,14 +74,7 @@ Result<DrawnPing> drawn_ping(DrawnObservation& observation, std::int64_t ping_in
   const double fraction = options.towards_next;
   DrawnPing out = fraction < 0.5 ? *first : *second;
   out.navigation = navigation_between(first->navigation, second->navigation, fraction);
-  if (first->staged && second->staged) {
-    auto staged = std::make_shared<StagedPing>(*out.staged);
-    staged->sv.counts = counts_between(first->staged->sv.counts, second->staged->sv.counts, fraction, work);
-    staged->filtered = std::make_shared<Volume>(
-        Volume{counts_between(first->staged->filtered->counts, second->staged->filtered->counts, fraction, work),
-               out.staged->filtered->flags});
-    out.staged = std::move(staged);
-  }
+  if (first->staged && second->staged) out.staged = staged_between(*first->staged, *second->staged, fraction, work);
   return out;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "base/array.h"
 #include "base/work.h"
@@ -23,6 +24,11 @@ namespace sonar {
 /// in      [fan][beam][sample], counts; other shapes than a's: the nearer one as it is
 [[nodiscard]] Array3<std::int16_t> counts_between(const Array3<std::int16_t>& a, const Array3<std::int16_t>& b,
                                                   double fraction, Work& work);
+
+/// The stages of a ping part of the way to the next: Sv interpolated, recorded and filtered alike; flags and the rest are
+/// those of the nearer of both, whose index it has.
+[[nodiscard]] std::shared_ptr<const StagedPing> staged_between(const StagedPing& a, const StagedPing& b,
+                                                               double fraction, Work& work);
 
 /// The ping, or what lies options.towards_next of the way to the next: navigation and samples interpolated, flags, masks
 /// and the rest those of the nearer of both, whose index it has.

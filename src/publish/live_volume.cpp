@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "publish/live_volume.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
 #include <utility>
 
+#include "publish/between_pings.h"
 #include "publish/chart_seabed.h"
 #include "publish/mask_silhouettes.h"
 #include "publish/renderer_choice.h"
@@ -43,6 +46,18 @@ struct ContextKey {
   std::shared_ptr<const SeabedPatch> seabed;
   friend bool operator==(const ContextKey&, const ContextKey&) = default;
 };
+
+std::string between_words(const LiveVolumeInput& input) {
+  const std::int64_t to = input.next->ping_index;
+  return fmt::format("interpolated between pings {} and {}", to - 1, to);
+}
+
+/// The same with the stages that lie between its two pings.
+LiveVolumeInput with_between(const LiveVolumeInput& input, Work& work) {
+  LiveVolumeInput out = input;
+  out.staged = staged_between(*input.staged, *input.next, input.towards_next, work);
+  return out;
+}
 
 /// Jittered frames that are worth showing: each step twice as smooth as the one before.
 bool worth_showing(const Refinement::Frame& frame) {
@@ -186,6 +201,7 @@ VolumeFigure LiveVolume::State::figure_of(const LiveVolumeInput& input) {
   figure.navigation = input.navigation;
   figure.title = input.title;
   figure.title_line = input.title_line;
+  if (input.next) figure.mark = between_words(input);
   figure.refused = input.refused;
   figure.fitted = fitted_seabed(*input.staged);
   figure.fan = input.fan;
@@ -268,8 +284,8 @@ Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumeP
     }
     if (work == &first || worth_showing(*frame)) {
       auto shown = std::make_shared<LiveVolumeShown>(LiveVolumeShown{
-          volume, table, met, view, place.rect, input.staged->ping_index, frame->quality.divisor, frame->averaged,
-          frame->done, offscreen->renderer->name(), notice.empty() ? chart_notice : notice});
+          volume, table, met, view, place.rect, input.next ? -1 : input.staged->ping_index, frame->quality.divisor,
+          frame->averaged, frame->done, offscreen->renderer->name(), notice.empty() ? chart_notice : notice});
       show({volume_figure_frame(figure, labelled, place, view, context, frame->image, first), std::move(shown)});
     }
     if (frame->done || token.cancelled()) return {};
@@ -282,7 +298,8 @@ LiveVolume::LiveVolume(MakeRenderer make) : state_(std::make_unique<State>()) {
 
 LiveVolume::~LiveVolume() { state_->let_go(); }
 
-Result<void> LiveVolume::draw(const LiveVolumeInput& input, const CancelToken& token, Work& better, const Show& show) {
+Result<void> LiveVolume::draw(const LiveVolumeInput& asked, const CancelToken& token, Work& better, const Show& show) {
+  const LiveVolumeInput input = asked.next ? with_between(asked, state_->first) : asked;
   const auto place = volume_place(input.options, input.scale);
   if (!place) return pass_on(place);
   if (auto begun = state_->begin(input.options.volume.renderer); !begun) return begun;

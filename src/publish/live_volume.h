@@ -27,6 +27,10 @@ struct OffscreenRenderer;
 /// Everything that a live picture of a ping's volume depends on. What is the same object as before is not prepared again.
 struct LiveVolumeInput {
   std::shared_ptr<const StagedPing> staged;
+  /// The ping that something moves on to: Sv is interpolated between both, which the picture says. Null = `staged` as
+  /// measured. All else is given as it is to be drawn.
+  std::shared_ptr<const StagedPing> next{};
+  double towards_next = 0.0;  ///< how far it has come, 0 <= x < 1
   std::shared_ptr<const Sector> sector;
   PingNavigation navigation;
   std::string title;       ///< of the observation
@@ -52,12 +56,12 @@ struct LiveVolumeShown {
   std::vector<MaskLayer> masks;  ///< that pointers meet
   VolumeView view;               ///< in device pixels
   PixelRect place;               ///< of the volume, in pixels of the picture
-  std::int64_t ping_index = -1;
-  int divisor = 1;       ///< of the rays' resolution
-  int averaged = 0;      ///< jittered frames in it
-  bool done = false;     ///< it gets no better
-  std::string renderer;  ///< "cpu (AVX3)"
-  std::string notice;    ///< why another back-end draws than was asked for, or no depth chart; empty = none
+  std::int64_t ping_index = -1;  ///< -1 = none: it is interpolated between two
+  int divisor = 1;               ///< of the rays' resolution
+  int averaged = 0;              ///< jittered frames in it
+  bool done = false;             ///< it gets no better
+  std::string renderer;          ///< "cpu (AVX3)"
+  std::string notice;            ///< why another back-end draws than was asked for, or no depth chart; empty = none
 
   /// What is seen at a place of the picture; below a millisecond or so.
   [[nodiscard]] std::optional<Picked> picked_at(PixelPoint at) const;

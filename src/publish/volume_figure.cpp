@@ -304,6 +304,11 @@ FrameDescription volume_figure_frame(const VolumeFigure& figure, const PictureOp
     frame.items.emplace_back(
         TextItem{middle, words, theme.text_px, theme.text, TextAnchor::centre, 0.0, false, theme.halo});
   }
+  if (!figure.mark.empty()) {
+    const PixelPoint top{place.rect.x + 0.5 * place.rect.width, place.rect.y + 1.2 * theme.text_px};
+    frame.items.emplace_back(
+        TextItem{top, figure.mark, theme.text_px, theme.text, TextAnchor::centre, 0.0, true, theme.halo});
+  }
   add_colour_bars(frame, figure, options, place, view.masks.data_too);
   std::string line = view_line(figure, options, place, view.masks.data_too);
   if (legend.left_out) line += "; no room for the legend";

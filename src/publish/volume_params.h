@@ -46,6 +46,7 @@ struct VolumeParams {
   bool earth_fixed = false;
   bool ship_track = false;
   bool school_tracks = false;
+  bool interpolated = false;
   int trail_pings = 0;
   double ship_length_m = 60.0;
   double moving_budget_ms = 50.0;
@@ -94,6 +95,12 @@ void describe(Visitor& v, VolumeParams& p) {
   v.field("earth_fixed", p.earth_fixed,
           {.text = "while pings pass the eye stands still on the earth; off = it sails with the ship",
            .tier = Tier::basic});
+  v.field(
+      "interpolated", p.interpolated,
+      {.text = "while pings play the picture moves evenly from one to the next: Sv between them is interpolated, which "
+               "the picture says; nothing is measured there, and the ping as measured is shown when playing stops",
+       .tier = Tier::basic,
+       .flag = kNoFlag});
   v.field(
       "ship_track", p.ship_track,
       {.text = "show the ship's track on the sea surface, paler where it has still to be sailed", .tier = Tier::basic});

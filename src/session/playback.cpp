@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace sonar {
 namespace {
@@ -43,6 +44,7 @@ void Playback::pause() {
   if (!playing_) return;
   playing_ = false;
   animations_.stop(kName);
+  workspace_.motion.set({});
   changed_.tell();
 }
 
@@ -70,14 +72,31 @@ bool Playback::step(double now_s) {
     since_s_ = now_s;
     came_s_.push_back(now_s);
     if (came_s_.size() > kRatePings) came_s_.pop_front();
+    workspace_.motion.set({});
     changed_.tell();
     if (rate_ != kFastest) return true;
   }
   // At the end of a loop one sees that it ends: no ping comes after the last, as long as the one before it stayed.
-  if (now_s - since_s_ < wait_s(last ? ping - 1 : ping)) return true;
+  const double all_s = wait_s(last ? ping - 1 : ping);
+  if (now_s - since_s_ < all_s) {
+    if (!last) move_on((now_s - since_s_) / all_s);
+    return true;
+  }
   unreadable_ = false;
   document.look_at(last ? 0 : ping + 1);
   return true;
+}
+
+void Playback::move_on(double fraction) {
+  MotionBetween motion;
+  Document& document = workspace_.document;
+  if (workspace_.volume.values().interpolated && fraction > 0.0 && document.staged()) {
+    // Made ahead behind the window; where it is not there yet the ping stays as it is.
+    if (auto to = document.shown()->cache().held(document.ping() + 1)) {
+      motion = {document.staged(), std::move(to), fraction};
+    }
+  }
+  workspace_.motion.set(std::move(motion));
 }
 
 void Playback::set_rate(double pings_per_s) {

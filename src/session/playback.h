@@ -59,6 +59,8 @@ class Playback {
 
  private:
   bool step(double now_s);
+  /// Shows how far it is to the next ping, where that is wished for and the next ping is there.
+  void move_on(double fraction);
   [[nodiscard]] double wait_s(std::int64_t ping) const;
 
   Workspace& workspace_;

@@ -138,6 +138,43 @@ TEST_F(PlaybackAtWork, LoopsWhereThatIsAskedFor) {
   EXPECT_EQ(document().ping(), TestSurvey::kPings - 1);
 }
 
+// At two pings a second a quarter of a second after a ping is half of the way; whenever it rests, pings are as measured.
+TEST_F(PlaybackAtWork, IsBetweenPingsOnlyWhereThatIsAskedFor) {
+  const auto motion = [this]() -> const MotionBetween& { return app_.workspace().motion(); };
+  const auto tick_ready = [this](double now_s) {
+    tick(now_s);
+    document().shown()->cache().wait();  // what is made ahead
+    app_.settle();
+  };
+  playback().play();
+  tick_ready(0.0);
+  tick_ready(0.25);
+  EXPECT_EQ(motion().from, nullptr) << "off by default";
+  ASSERT_TRUE(app_.workspace().volume.set("interpolated", true));
+  tick_ready(0.25);
+  ASSERT_TRUE(motion().from && motion().to);
+  EXPECT_EQ(motion().from->ping_index, 0);
+  EXPECT_EQ(motion().to->ping_index, 1);
+  EXPECT_DOUBLE_EQ(motion().fraction, 0.5);
+  tick_ready(0.5);
+  tick_ready(0.52);
+  EXPECT_EQ(document().ping(), 1);
+  EXPECT_EQ(motion().from, nullptr) << "a ping that has come is as measured";
+  tick_ready(0.62);
+  EXPECT_EQ(motion().from->ping_index, 1);
+  EXPECT_NEAR(motion().fraction, 0.2, 1e-9);
+  playback().pause();
+  EXPECT_EQ(motion().from, nullptr);
+  document().look_at(TestSurvey::kPings - 2);
+  app_.settle();
+  playback().set_loops(true);
+  playback().play();
+  for (const double now_s : {10.0, 10.5, 10.6}) tick_ready(now_s);
+  ASSERT_EQ(document().ping(), TestSurvey::kPings - 1);
+  tick_ready(10.8);
+  EXPECT_EQ(motion().from, nullptr) << "nothing lies between the last ping and the first";
+}
+
 TEST_F(PlaybackAtWork, StepsAndEndsByKeys) {
   app_.ask("ping.next");
   EXPECT_EQ(document().ping(), 1);

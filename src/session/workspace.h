@@ -113,6 +113,14 @@ struct SliceInUse {
   friend bool operator==(const SliceInUse&, const SliceInUse&) = default;
 };
 
+/// Playing is on its way from one ping to the next.
+struct MotionBetween {
+  StagedPingPtr from;  ///< null = it is not: pings are as measured
+  StagedPingPtr to;
+  double fraction = 0.0;  ///< of the way that lies behind, 0 <= x < 1
+  friend bool operator==(const MotionBetween&, const MotionBetween&) = default;
+};
+
 /// Everything that the views of one window share: the document, the parameters, and what is pointed at.
 /// threads  the window's
 struct Workspace {
@@ -160,6 +168,7 @@ struct Workspace {
   Shared<std::optional<ChosenMark>> mark;                 ///< on a timeline; another school or survey ends it
   Shared<std::optional<Camera>> camera;                   ///< of the volume; empty = the overview
   Shared<bool> latencies{false};                          ///< how long each picture took, over it: for developers
+  Shared<MotionBetween> motion;                           ///< what the volume shows of playing, beside pings
 
   /// Index in the state of the selected school, where it is in the observation on show.
   [[nodiscard]] std::optional<std::size_t> selected() const;

@@ -62,6 +62,11 @@ void add_past(AppModel& app, const VolumeModel* volume) {
       [](const VolumeParams& params) { return params.earth_fixed; },
       [](VolumeParams& params, bool on) { params.earth_fixed = on; }));
   app.actions.add(turn(
+      app, volume, "volume.interpolated", "Volume: interpolated motion", "Ctrl+9",
+      "While pings play the volume moves evenly from one to the next, and says that it is interpolated",
+      [](const VolumeParams& params) { return params.interpolated; },
+      [](VolumeParams& params, bool on) { params.interpolated = on; }));
+  app.actions.add(turn(
       app, volume, "volume.trails", "Volume: tracks and trails", "Ctrl+8",
       "The ship's track, those of schools, and where schools were in the pings before",
       [](const VolumeParams& params) { return trail_params(params).any(); },

@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "geo/geodesic.h"
+#include "publish/between_pings.h"
 #include "session/volume/test_volume.h"
 
 namespace sonar {
@@ -21,11 +22,11 @@ class VolumeOnEarth : public testing::Test, public VolumeApp {
     return workspace_.document.shown()->files().navigation[static_cast<std::size_t>(index)];
   }
   /// A place 150 m abeam of ping 0 and 40 m deep, in the frame of the ping on show.
-  [[nodiscard]] Point<Sonar> buoy() const {
+  [[nodiscard]] Point<Sonar> buoy() const { return buoy_from(ping(model_->shown()->ping_index)); }
+  [[nodiscard]] Point<Sonar> buoy_from(const PingNavigation& now) const {
     const PingNavigation& first = ping(0);
     const double side = model_->shown()->volume->sector.centre(0, 0, 100).y < 0.0 ? -90.0 : 90.0;
     const Geographic there = destination(first.transducer, 150.0, first.heading_deg + side);
-    const PingNavigation& now = ping(model_->shown()->ping_index);
     Point<Sonar> out = to_sonar(to_enu(there, now.transducer), rad_from_deg(now.heading_deg));
     out.z = 40.0 - now.transducer_depth_m;
     return out;
@@ -56,6 +57,21 @@ TEST_F(VolumeOnEarth, APlaceOnTheEarthKeepsItsPixelWhilePingsPass) {
   look_at(7);
   EXPECT_LT(away(pixel({}), ship), 0.5);
   EXPECT_GT(away(pixel(buoy()), there), 2.0);
+}
+
+// The same law on the way from one ping to the next.
+TEST_F(VolumeOnEarth, APlaceOnTheEarthKeepsItsPixelBetweenPings) {
+  fix(true);
+  const PixelPoint there = pixel(buoy());
+  const PixelPoint ship = pixel({});
+  const StagedPingPtr from = workspace_.document.staged();
+  const StagedPingPtr to = *workspace_.document.shown()->ping(1);
+  for (const double fraction : {0.3, 0.7}) {
+    workspace_.motion.set({from, to, fraction});
+    settle();
+    EXPECT_LT(away(pixel(buoy_from(navigation_between(ping(0), ping(1), fraction))), there), 0.5) << fraction;
+    EXPECT_GT(away(pixel({}), ship), 0.5 * fraction) << fraction;
+  }
 }
 
 TEST_F(VolumeOnEarth, AnotherLookStandsStillFromThereOn) {

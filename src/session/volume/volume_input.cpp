@@ -8,10 +8,13 @@
 #include <string>
 #include <utility>
 
+#include "publish/between_pings.h"
+#include "publish/volume_figure.h"
 #include "session/refused_layer.h"
 #include "session/screen_theme.h"
 #include "session/slices/school_layers.h"
 #include "view/theme.h"
+#include "view/volume/earth_pose.h"
 
 namespace sonar {
 namespace {
@@ -55,6 +58,24 @@ TrailSubject trail_subject(const Workspace& workspace, const OpenObservationPtr&
   return out;
 }
 
+/// The ping that playing goes to from the one that has arrived; null where it rests there.
+StagedPingPtr moves_to(const Workspace& workspace, const PictureLook& look) {
+  const MotionBetween& motion = workspace.motion();
+  const bool moves = !look.panel && motion.from && motion.from == workspace.document.staged();
+  return moves ? motion.to : nullptr;
+}
+
+/// The ship where it is on its way, below an eye that stands where it stood if it is to stand still.
+void move_ship(LiveVolumeInput& input, const PingNavigation& next, double fraction) {
+  const PingNavigation from = input.navigation;
+  input.navigation = navigation_between(from, next, fraction);
+  input.towards_next = fraction;
+  const auto place = volume_place(input.options, input.scale);
+  if (!input.options.volume.earth_fixed || !place) return;
+  const Camera eye = input.options.camera ? *input.options.camera : overview(*input.sector, place->rays);
+  if (const auto stands = standing_still(eye, from, input.navigation)) input.options.camera = stands;
+}
+
 }  // namespace
 
 std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const std::optional<Camera>& camera,
@@ -76,18 +97,26 @@ std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const st
   input.options.dark = look.dark;
   input.options.transfer = workspace.view_curve();
   input.options.camera = camera;
-  input.refused = refused_layer_in(workspace, input.staged->ping_index);
+  input.scale = look.scale;
+  input.next = moves_to(workspace, look);
+  std::int64_t nearer = input.staged->ping_index;  // whose schools are shown
+  if (input.next) {
+    const double fraction = workspace.motion().fraction;
+    if (!(fraction < 0.5)) nearer = input.next->ping_index;
+    move_ship(input, shown->files().navigation[static_cast<std::size_t>(input.next->ping_index)], fraction);
+    input.title_line = fmt::format("{}   ping {} to {}", input.title, input.staged->ping_index, input.next->ping_index);
+  }
+  input.refused = refused_layer_in(workspace, nearer);
   input.options.depth_raster = workspace.depth_raster();
   // Slices are put right when the observation on show is another one; until then the old places are kept.
   input.fan = std::clamp(workspace.slices().fan, 0, shown->sector().fans() - 1);
   input.beam = std::clamp(workspace.slices().beam, 0, shown->sector().beams() - 1);
   input.scale_bar = workspace.curve_follows_scale();
-  input.scale = look.scale;
   input.moving_budget_s = workspace.volume.values().moving_budget_ms / 1e3;
   if (trail_params(input.options.volume).any()) {
     input.trails = trail_subject(workspace, shown, theme_of(input.options));
   }
-  add_masks(input, school_layers(workspace, input.staged->ping_index, theme_of(input.options)));
+  add_masks(input, school_layers(workspace, nearer, theme_of(input.options)));
   return input;
 }
 

@@ -45,9 +45,10 @@ Point<Sonar> at_target_depth(const Camera& camera, const CameraBasis& b, const R
 VolumeModel::VolumeModel(Workspace& workspace, LiveVolume::MakeRenderer make)
     : LivePicture(workspace), workspace_(workspace), make_(make), live_(std::make_shared<LiveVolume>(std::move(make))) {
   listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
-  for (Listeners<>* changed : {&workspace.view_curve.changed(), &workspace.preview.changed(), &workspace.dark.changed(),
-                               &workspace.curve_follows_scale.changed(), &workspace.school.changed(),
-                               &workspace.echo.changed(), &workspace.depth_raster.changed()}) {
+  for (Listeners<>* changed :
+       {&workspace.motion.changed(), &workspace.view_curve.changed(), &workspace.preview.changed(),
+        &workspace.dark.changed(), &workspace.curve_follows_scale.changed(), &workspace.school.changed(),
+        &workspace.echo.changed(), &workspace.depth_raster.changed()}) {
     listening_.to(*changed, [this] { update(); });
   }
   for (Listeners<>* changed_over :
@@ -61,8 +62,7 @@ VolumeModel::VolumeModel(Workspace& workspace, LiveVolume::MakeRenderer make)
   });
   listening_.to(workspace.slices.changed(), [this] {
     const VolumeParams& params = workspace_.volume.values();
-    const bool shown = params.context && params.slice_planes;
-    if (shown || params.clip != VolumeClip::none) update();
+    if ((params.context && params.slice_planes) || params.clip != VolumeClip::none) update();
   });
   listening_.to(workspace.display, [this] { update(); });
   listening_.to(workspace.volume, [this] { update(); });

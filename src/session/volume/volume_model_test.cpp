@@ -11,9 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/units.h"
 #include "pipeline/stages/weak_samples.h"
 #include "publish/renderer_choice.h"
 #include "session/volume/test_volume.h"
+#include "session/volume/volume_input.h"
 
 namespace sonar {
 namespace {
@@ -126,6 +128,59 @@ TEST_F(VolumeAtWork, AnotherPingIsAnotherVolume) {
   const StagedPing& staged = *workspace_.document.staged();
   EXPECT_EQ(model_->shown()->volume->sv, left_of(staged, NoiseLook::hatched, NoiseLook::transparent));
   EXPECT_NE(model_->image(), first);
+}
+
+// Each sample is 10 log10 of the weighted mean of both pings' linear values; the picture says so, and pointers find nothing
+// that they could measure. At rest it is the ping as measured, to the last pixel.
+TEST_F(VolumeAtWork, BetweenPingsSvIsInterpolatedAndMarkedAndPointersFindNothing) {
+  DisplayParams display = workspace_.display.values();
+  display.removed = display.weak = NoiseLook::shown;
+  workspace_.display.assign(display);
+  settle();
+  const Image measured = model_->image();
+  const PixelPoint at = seen_place();
+  const StagedPingPtr from = workspace_.document.staged();
+  const StagedPingPtr to = *workspace_.document.shown()->ping(1);
+  workspace_.motion.set({from, to, 0.25});
+  settle();
+  EXPECT_NE(model_->image(), measured);
+  EXPECT_EQ(model_->shown()->ping_index, -1);
+  EXPECT_TRUE(model_->hint(at).empty());
+  const auto& drawn = model_->shown()->volume->sv;
+  const auto linear = [](std::int16_t count) { return std::pow(10.0, db_from_counts(count) / 10.0); };
+  std::size_t compared = 0;
+  for (std::size_t i = 0; i < drawn.all().size(); i += 11) {  // all rows and ranges
+    const std::int16_t a = from->filtered->counts.all()[i];
+    const std::int16_t b = to->filtered->counts.all()[i];
+    const std::int16_t here = drawn.all()[i];
+    if (a == kNoData || b == kNoData || here == kNoData) continue;
+    ++compared;
+    ASSERT_NEAR(db_from_counts(here), 10.0 * std::log10(0.75 * linear(a) + 0.25 * linear(b)), 0.51 * kDbPerCount);
+  }
+  EXPECT_GT(compared, drawn.all().size() / 22);
+  const PictureLook look{kVolumeTestSize, 1.0, false, {}};
+  const auto input = volume_input(workspace_, std::nullopt, look);
+  const auto& pings = workspace_.document.shown()->files().navigation;
+  EXPECT_NEAR(static_cast<double>(input->navigation.time - pings[0].time),
+              0.25 * static_cast<double>(pings[1].time - pings[0].time), 1.0);
+  EXPECT_EQ(input->title_line, input->title + "   ping 0 to 1");
+  std::set<std::string> words;
+  Work work(1);
+  ASSERT_TRUE(LiveVolume().draw(*input, CancelToken{}, work, [&](const LiveVolume::Picture& picture) {
+    for (const auto& item : picture.frame.items) {
+      if (const auto* text = std::get_if<TextItem>(&item)) words.insert(text->text);
+    }
+  }));
+  EXPECT_TRUE(words.contains("interpolated between pings 0 and 1"));
+  workspace_.motion.set({});
+  settle();
+  EXPECT_EQ(model_->image(), measured);
+  EXPECT_EQ(model_->shown()->ping_index, 0);
+  // Of a ping that is no longer on show there is no motion.
+  workspace_.document.look_at(3);
+  workspace_.document.settle();
+  workspace_.motion.set({from, to, 0.25});
+  EXPECT_EQ(volume_input(workspace_, std::nullopt, look)->next, nullptr);
 }
 
 // Sample by sample, by the rules of the display's own figures; stripes are not drawn in three dimensions.
