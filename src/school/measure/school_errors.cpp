@@ -67,15 +67,19 @@ double spread(const std::vector<double>& values) {
   return kStudent * std::sqrt(square / static_cast<double>(values.size() - 1));
 }
 
-/// Power of a length that a unit is: the sector is similar to itself under another sound speed.
-int dimension(std::string_view unit) {
-  if (unit == "m") return 1;
-  if (unit == "m2") return 2;
-  return unit == "m3" ? 3 : 0;
-}
-
 bool is_level(std::string_view figure) { return figure.starts_with("sv_") && figure.ends_with("_db"); }
 bool is_echo(std::string_view figure) { return figure == "backscatter_m2" || figure == "nasc_m2_nmi2"; }
+
+/// Power of the sound speed that a figure goes with: lengths with the first, as the sector is similar to itself; sv too, by the
+/// square of the range over the length of the pulse.
+int power_of_sound_speed(const ErrorColumn& column) {
+  if (column.figure == "backscatter_m2") return 4;  // sv over a volume
+  if (column.figure == "nasc_m2_nmi2") return 2;    // sv over a height
+  if (column.unit == "m") return 1;
+  if (column.unit == "m2") return 2;
+  return column.unit == "m3" ? 3 : 0;
+}
+
 bool is_depth(std::string_view figure) { return figure == "depth_m" || figure == "surface_distance_m"; }
 
 /// By what is alike in all pings, threshold apart.
@@ -83,8 +87,10 @@ double common_error(const ErrorColumn& column, double figure, const SchoolRow& s
   const double calibration_db = std::isfinite(school.backscatter_calibration_se_db)
                                     ? school.backscatter_calibration_se_db
                                     : params.calibration_db;
-  double variance = std::pow(dimension(column.unit) * figure * params.sound_speed_percent / 100.0, 2);
-  if (is_level(column.figure)) variance += calibration_db * calibration_db;
+  const double by_speed = params.sound_speed_percent / 100.0;
+  double variance = std::pow(power_of_sound_speed(column) * figure * by_speed, 2);
+  if (is_level(column.figure))
+    variance += calibration_db * calibration_db + std::pow(db_from_linear(1.0 + by_speed), 2);
   if (is_echo(column.figure)) variance += std::pow(figure * (linear_from_db(calibration_db) - 1.0), 2);
   if (is_depth(column.figure)) variance += std::pow(school.horizontal_range_m * rad_from_deg(params.tilt_deg), 2);
   return std::sqrt(variance);
@@ -98,7 +104,10 @@ FigureValues figures_of(const SchoolRow& row) { return read_figures(row); }
 Repeats measure_repeats(const MeasureInput& ping, const PingMask& mask, const MedianParams& median, double tolerance_db,
                         std::uint64_t seed, const MeasureParams& measure, const ErrorParams& params) {
   Repeats repeats;
-  if (!params.enabled || ping.filtered.data() == nullptr || std::isnan(ping.threshold_db)) return repeats;
+  // Unfiltered, the echo's own fading cannot be told from what fades.
+  if (!params.enabled || !median.enabled || ping.filtered.data() == nullptr || std::isnan(ping.threshold_db)) {
+    return repeats;
+  }
   const auto add = [&](const MeasureInput& input, const PingMask& other) {
     repeats.emplace_back();
     const FigureValues figures = other.empty() ? unknown_figures() : figures_of(measure_row(input, other, measure));

@@ -99,15 +99,17 @@ Result<SlicePicture> slice_of(const SliceWish& wish, PixelSize size) {
   if (const auto below_db = weak_below(wish.display)) {
     data.flags = marked_flags(wish, *below_db);
   }
+  std::vector<MaskLayer> whole;  // of schools; what is only tried casts no shadow
   for (const SchoolLayer& school : wish.layers) {
     MaskLayer layer = school.layer;
+    if (school.number != 0 && wish.display.shadow) whole.push_back(layer);
     layer.mask = fuzzy_area(layer.mask, wish.display.fuzzy_above);
     data.masks.push_back(std::move(layer));
   }
   data.refused = wish.refused;
   if (wish.display.shadow) {
     data.shadow_from =
-        shadow_of_schools(*wish.ping, wish.observation->sector(), data.masks, wish.observation->recipe(), wish.display);
+        shadow_of_schools(*wish.ping, wish.observation->sector(), whole, wish.observation->recipe(), wish.display);
   }
   SliceStyle style = slice_style(wish.display, *wish.colours);
   style.north_up = wish.north_up;
