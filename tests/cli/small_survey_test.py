@@ -170,6 +170,30 @@ class SmallSurvey(Case):
             self.assertEqual((again / "out" / table).read_bytes(), (OUT / table).read_bytes())
         shutil.rmtree(again)
 
+    def test_extinction_and_errors_change_nothing_but_what_they_are_about(self):
+        folder = self.fresh("corrected")
+        recipe = json.loads(self.sonarx("recipe"))
+        recipe["measure"]["extinction"]["correct"] = True
+        recipe["errors"]["enabled"] = True
+        (folder / "recipe.json").write_text(json.dumps(recipe), encoding="utf-8")
+        self.sonarx("run", SURVEY, "--recipe", folder / "recipe.json", "--out", folder / "out")
+        self.assertIn("extinction-corrected", (folder / "out" / "survey.json").read_text(encoding="utf-8"))
+        before, after = (sonarx.read_csv(out / "schools.csv") for out in (OUT, folder / "out"))
+        self.assertEqual(len(before), len(after))
+        for was, now in zip(before, after, strict=True):
+            self.assertEqual((was["volume_m3"], was["extinction_corrected"]), (now["volume_m3"], "0"))
+            self.assertEqual(now["extinction_corrected"], "1")
+            # The echo is what the table said that it lacked.
+            lost = float(was["extinction_share"])
+            self.assertGreater(lost, 0)
+            heard = float(was["backscatter_m2"]) / float(now["backscatter_m2"])
+            self.assertAlmostEqual(1 - heard, lost, delta=0.3 * lost)
+            self.assertEqual(was["volume_se_m3"], "")
+            self.assertLess(0, float(now["volume_se_m3"]))
+            self.assertLess(float(now["volume_se_m3"]), 0.5 * float(now["volume_m3"]))
+            self.assertLess(0.5, float(now["sv_mean_se_db"]), "the calibration's error")
+        shutil.rmtree(folder)
+
 
 if __name__ == "__main__":
     sonarx.main()
