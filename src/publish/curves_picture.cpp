@@ -48,7 +48,7 @@ struct AxisOfShip {
 };
 constexpr std::array<AxisOfShip, 3> kAxes{
     {{AgainstShip::range, "range_m", "range from the ship (m)"},
-     {AgainstShip::bearing, "relative_bearing_deg", "bearing from the bow (degrees)"},
+     {AgainstShip::bearing, "relative_bearing_deg", "bearing from the bow (°)"},
      {AgainstShip::time, "time_to_cpa_s", "time to closest approach (s)"}}};
 
 struct PooledFigure {
@@ -61,7 +61,7 @@ struct PooledFigure {
 using A = AvoidanceRow;
 constexpr std::array<PooledFigure, 4> kPooled{
     {{"speed (m/s)", &A::speed_smoothed_p25_mps, &A::speed_smoothed_p50_mps, &A::speed_smoothed_p75_mps},
-     {"course off straight away (degrees)", &A::course_away_p25_deg, &A::course_away_p50_deg, &A::course_away_p75_deg},
+     {"off straight away (°)", &A::course_away_p25_deg, &A::course_away_p50_deg, &A::course_away_p75_deg},
      {"depth (m)", &A::depth_p25_m, &A::depth_p50_m, &A::depth_p75_m, true},
      {kSvLabel, &A::sv_mean_p25_db, &A::sv_mean_p50_db, &A::sv_mean_p75_db}}};
 

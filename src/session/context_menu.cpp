@@ -72,7 +72,7 @@ constexpr std::array<ActionGroup, 2> kJournal{kUndo, kRows};
 constexpr std::array<ActionGroup, 1> kNotes{kRows};
 
 /// Of the menu bar: the first of what belongs together, after others.
-constexpr std::array<Id, 36> kBegin{"edit.undo",
+constexpr std::array<Id, 38> kBegin{"edit.undo",
                                     "transects.open",
                                     "file.recipe",
                                     "file.calibration",
@@ -83,8 +83,10 @@ constexpr std::array<Id, 36> kBegin{"edit.undo",
                                     "export.ices",
                                     "export.movie",
                                     "volume.above",
+                                    "volume.earth_fixed",
                                     "map.all",
                                     "chart.columns",
+                                    "noise.choose",
                                     "view.top_slice",
                                     "view.dark",
                                     "ping.play",

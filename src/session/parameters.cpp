@@ -9,8 +9,8 @@
 namespace sonar {
 
 std::string label_of(std::string_view name, std::string_view unit) {
-  constexpr std::array<std::string_view, 11> kSuffixes{"_px",   "_db",    "_m",  "_deg", "_s",      "_mps",
-                                                       "_mps2", "_pings", "_hz", "_gb",  "_percent"};
+  constexpr std::array<std::string_view, 14> kSuffixes{"_px",    "_db", "_m",  "_deg",     "_s",   "_mps", "_mps2",
+                                                       "_pings", "_hz", "_gb", "_percent", "_nmi", "_cm",  "_g"};
   if (!unit.empty()) {
     for (const std::string_view suffix : kSuffixes) {
       if (!name.ends_with(suffix)) continue;
@@ -18,8 +18,8 @@ std::string label_of(std::string_view name, std::string_view unit) {
       break;
     }
   }
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kProper{
-      {{"ek500", "EK500"}, {"auto", "Automatic"}, {"cpu", "Processor"}, {"gl", "OpenGL"}}};
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kProper{
+      {{"ek500", "EK500"}, {"edsu", "EDSU"}, {"auto", "Automatic"}, {"cpu", "Processor"}, {"gl", "OpenGL"}}};
   for (const auto& [written, spoken] : kProper) {
     if (name == written) return std::string(spoken);
   }

@@ -93,7 +93,10 @@ class DialogsByHand : public WindowAtWork {
       const bool here = one == &entry;
       if (!here && (one->menu() == nullptr || !leads_to(*one->menu(), entry))) continue;
       QTest::mouseClick(&menu, Qt::LeftButton, {}, menu.actionGeometry(one).center());
-      return here || click_in(*one->menu(), one->menu()->actions(), entry);
+      if (here) return true;
+      const bool opened =
+          QTest::qWaitFor([&] { return one->menu()->isVisible(); }, 2000);  // a menu in a menu takes a moment
+      return opened && click_in(*one->menu(), one->menu()->actions(), entry);
     }
     return false;
   }

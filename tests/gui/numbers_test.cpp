@@ -104,7 +104,10 @@ TEST_F(NumbersInWindow, FishAreCountedAndWritten) {
   EXPECT_LT(app_->fish->result()->strata.back().numbers_seen, before) << "longer fish are louder, so fewer";
   EXPECT_TRUE(page->findChild<QLabel*>("relation_text")->text().contains("Pedersen"));
   page->findChild<QTabWidget*>("results")->setCurrentIndex(2);
-  settle();
+  auto* view = page->findChild<PictureView*>("causes");
+  ASSERT_NE(view, nullptr);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return view->picture().image().size.width > 0; }, 30'000))
+      << view->picture().problem();
   keep(*page, "causes");
   press(*page, "incidence");
   EXPECT_TRUE(workspace().views.values().chart);
