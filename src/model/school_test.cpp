@@ -61,8 +61,14 @@ TEST(SchoolColumns, OfTracks) {
             "bottom_distance_m,horizontal_range_m,incidence_deg,diner_nb_across,diner_nb_height,"
             "course_se_deg,vertical_speed_se_mps,tortuosity,tortuosity_se,speed_water_mps,speed_water_se_mps,"
             "course_water_deg,course_water_se_deg,current_east_mps,current_north_mps,current_se_mps,depth_error_m,"
-            "extinction_loss_db,extinction_share,extinction_share_low,extinction_share_high,extinction_corrected");
-  EXPECT_EQ(names.seen.size(), 78U);
+            "extinction_loss_db,extinction_share,extinction_share_low,extinction_share_high,extinction_corrected,"
+            "depth_se_m,volume_se_m3,length_se_m,width_se_m,height_se_m,sv_mean_se_db,backscatter_se_m2,"
+            "surface_se_m2,area_se_m2,equivalent_radius_se_m,box_length_se_m,box_width_se_m,box_thickness_se_m,"
+            "sphericity_se,roughness_se,n_vacuoles_se,vacuole_fraction_se,n_nuclei_se,sv_p5_se_db,sv_p50_se_db,"
+            "sv_robust_mean_se_db,sv_variation_se,sv_skewness_se,sv_kurtosis_se,core_edge_se_db,nasc_se_m2_nmi2,"
+            "surface_distance_se_m,bottom_distance_se_m,horizontal_range_se_m,diner_nb_across_se,"
+            "diner_nb_height_se");
+  EXPECT_EQ(names.seen.size(), 109U);
 }
 
 // 1 fore, 2 aft, 4 top fan, 8 bottom fan, 16 near, 32 far, 64 seabed, 128 surface, 256 flagged data.
