@@ -46,10 +46,9 @@ struct AxisOfShip {
   std::string_view column;
   const char* label;
 };
-constexpr std::array<AxisOfShip, 3> kAxes{
-    {{AgainstShip::range, "range_m", "range from the ship (m)"},
-     {AgainstShip::bearing, "relative_bearing_deg", "bearing from the bow (°)"},
-     {AgainstShip::time, "time_to_cpa_s", "time to closest approach (s)"}}};
+constexpr std::array<AxisOfShip, 3> kAxes{{{AgainstShip::range, "range_m", "range from the ship (m)"},
+                                           {AgainstShip::bearing, "relative_bearing_deg", "bearing from the bow (°)"},
+                                           {AgainstShip::time, "time_to_cpa_s", "time to closest approach (s)"}}};
 
 struct PooledFigure {
   const char* label;
