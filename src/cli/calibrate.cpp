@@ -87,10 +87,8 @@ int run_calibrate(const CalibrateArguments& arguments) {
   if (auto sphere = named_sphere(arguments.sphere); !sphere) {
     return report({ErrorCode::usage, "--sphere: " + sphere.error().text, {}});
   }
-  for (const std::string& file : {arguments.out, arguments.picture}) {
-    if (file.empty()) continue;
-    if (auto place = require_place(file); !place) return report(place.error());
-  }
+  if (auto place = require_place(arguments.out); !arguments.out.empty() && !place) return report(place.error());
+  if (auto place = require_picture_place(arguments.picture); !place) return report(place.error());
   Work work(arguments.jobs);
   const CancelOnInterrupt watch(work);
   show_progress(work);

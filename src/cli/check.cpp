@@ -15,9 +15,7 @@ namespace sonar {
 namespace {
 
 int run_check(const std::string& out, bool json, const std::string& picture) {
-  if (!picture.empty()) {
-    if (auto place = require_place(picture); !place) return report(place.error());
-  }
+  if (auto place = require_picture_place(picture); !place) return report(place.error());
   Work work(1);
   const CancelOnInterrupt watch(work);
   const auto made = setup_report(out, work);

@@ -25,6 +25,12 @@ class Check(Case):
         self.assertEqual(code, 1)
         self.assertIn(str(folder), err)
 
+    def test_a_name_that_is_no_pictures_is_refused_before_the_work(self):
+        """Nothing of the sphere run or the results is read first: neither is there."""
+        for verb in (("check", "absent"), ("calibrate", "absent", "--sphere", "wc38.1", "-o", "gains.csv")):
+            code, _, err = run(*verb, "--picture", "chart.txt")
+            self.assertEqual((code, err.strip()), (2, "sonarx: chart.txt: expected a name that ends in .png, .svg or .pdf"))
+
 
 if __name__ == "__main__":
     sonarx.main()
