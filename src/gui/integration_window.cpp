@@ -25,8 +25,8 @@ IntegrationWindow::IntegrationWindow(AppModel& app)
 }
 
 void IntegrationWindow::add_choices() {
-  const auto source = std::make_shared<SourceOf<IntegrateParams>>(integration_.params);
-  add_folding_section(choices(), PanelSection{to_translate("How water is cut"), source}, inside());
+  add_folding_section(choices(), PanelSection{to_translate("How water is cut"), source_of(integration_.params)},
+                      inside());
   transects_ = new QLabel(inside());
   transects_->setObjectName("transects");
   transects_->setTextFormat(Qt::PlainText);

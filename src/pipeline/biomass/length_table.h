@@ -7,7 +7,7 @@
 
 #include "base/result.h"
 #include "io/csv_table.h"
-#include "school/strength/fish_lengths.h"
+#include "model/fish_lengths.h"
 
 namespace sonar {
 

@@ -12,6 +12,8 @@
 
 #include "base/result.h"
 #include "base/task_thread.h"
+#include "model/fish_lengths.h"
+#include "model/ts_relation.h"
 #include "pipeline/biomass/biomass.h"
 #include "session/listening.h"
 #include "session/live_picture.h"

@@ -49,7 +49,6 @@ class MeasureAtWork : public testing::Test {
   template <class Within>
   void expect_sums(SliceModel& slice, Within within, bool all_fans = false) {
     const StagedPing& ping = *document().staged();
-    const Background background = ping.background();
     std::int64_t voxels = 0;
     std::int64_t never = 0;
     std::int64_t faulty = 0;
@@ -81,7 +80,12 @@ class MeasureAtWork : public testing::Test {
             ++faulty;
             continue;
           }
-          const double noise = RowBackground(background, row)(s);
+          // The noise of a beam is told as power; what makes power Sv makes it Sv too.
+          const double noise_db =
+              ping.background_db.empty() ? kUnknown : ping.background_db[static_cast<std::size_t>(row)];
+          const double noise = std::isnan(noise_db)
+                                   ? 0.0
+                                   : std::pow(10.0, (noise_db + (*ping.calibration)(f, b, s) * kDbPerCount) / 10.0);
           const double sv = std::pow(10.0, count * kDbPerCount / 10.0) - noise;
           heard_m3 += cell;
           sum += sv * cell;
