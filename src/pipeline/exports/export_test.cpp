@@ -44,7 +44,7 @@ TEST_F(Export, tables_maps_and_masks) {
   const auto csv = run("csv");
   ASSERT_TRUE(csv) << to_line(csv.error());
   EXPECT_EQ(read_csv_rows<SchoolPingRow>(csv->files.at(1))->size(), 4U);
-  for (const char* format : {"gpkg", "geojson", "netcdf-mask", "ply", "gltf", "vtu", "echoview"}) {
+  for (const char* format : {"gpkg", "geojson", "netcdf-mask", "ply", "gltf", "vtu", "echoview", "lsss"}) {
     const auto files = run(format);
     ASSERT_TRUE(files) << to_line(files.error());
     EXPECT_FALSE(fs::is_empty(folder_ / format)) << format;
@@ -65,10 +65,8 @@ TEST_F(Export, refuses_in_one_line) {
   const auto unknown = run("shapefile");
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().code, ErrorCode::usage);
-  EXPECT_THAT(
-      to_line(unknown.error()),
-      HasSubstr(
-          "csv, netcdf-mask, gpkg, geojson, ply, gltf, vtu, vts, ices, echoview, sv, avoidance, seabed, raw-reduced"));
+  EXPECT_THAT(to_line(unknown.error()), HasSubstr("csv, netcdf-mask, gpkg, geojson, ply, gltf, vtu, vts, ices, "
+                                                  "echoview, lsss, sv, avoidance, seabed, raw-reduced"));
   EXPECT_EQ(run("raw-reduced").error().code, ErrorCode::usage);
   EXPECT_EQ(run("vts").error().code, ErrorCode::usage);
   EXPECT_THAT(to_line(run("ices").error()), HasSubstr("sonarx integrate"));
