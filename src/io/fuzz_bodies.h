@@ -19,9 +19,11 @@
 #include "io/csv.h"
 #include "io/csv_table.h"
 #include "io/index_cache.h"
+#include "io/lsss_work.h"
 #include "io/nav_series.h"
 #include "io/nmea.h"
 #include "io/ping_source.h"
+#include "io/product_example.h"
 #include "io/raw_index.h"
 #include "io/simrad/con1.h"
 #include "io/simrad/last_datagrams.h"
@@ -134,6 +136,38 @@ inline void school_tables(std::string_view text) {
   if (!table) return;
   table_rows<SchoolRow>(*table);
   table_rows<SchoolPingRow>(*table);
+}
+
+/// Masks of a work file lie apart, in order, and within the grid that they are placed in; written, they are the same.
+inline void lsss_work(std::string_view text) {
+  ObservationProduct product = example::empty("obs-0001", 4);
+  std::vector<TimeNs> times;
+  for (const PingNavigation& ping : product.pings) times.push_back(ping.time);
+  const GridRecord& grid = *product.grid;
+  for (const LsssNumbering numbering : {LsssNumbering::from_one, LsssNumbering::from_zero}) {
+    const auto schools = parse_lsss_work(std::string(text), "fuzz", numbering);
+    if (!schools) continue;
+    const auto placed = place_lsss(*schools, grid, times, "fuzz");
+    if (!placed) continue;
+    for (const LsssCells& cells : placed->cells) {
+      SONAR_CHECK(cells.school < schools->size() && cells.ping_index >= 0 && cells.ping_index < std::ssize(times));
+      std::int64_t row = -1;
+      std::int64_t end = 0;
+      for (const Run& run : cells.runs) {
+        SONAR_CHECK(run.row > row || (run.row == row && run.first_sample > end));
+        row = run.row;
+        end = run.end();
+        SONAR_CHECK(run.first_sample >= 0 && run.count > 0 && row < example::kFans * example::kBeams);
+        SONAR_CHECK(end <= grid.sample_count[static_cast<std::size_t>(row / example::kBeams)]);
+      }
+      product.schools = {SchoolRow{}};
+      product.masks = {{0, cells.ping_index, {cells.runs, {}}}};
+      const auto again = parse_lsss_work(lsss_work_text(product, numbering), "fuzz", numbering);
+      SONAR_CHECK(again.has_value());
+      const auto same = place_lsss(*again, grid, times, "fuzz");
+      SONAR_CHECK(same.has_value() && same->cells.size() == 1 && same->cells[0].runs == cells.runs);
+    }
+  }
 }
 
 /// A stored index is taken whole or not at all; so are the same bytes behind a right check sum, which no mutation would make.

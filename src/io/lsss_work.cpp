@@ -147,14 +147,25 @@ class WorkReader {
       if (!count) return pass_on(count);
       if (*count < beams) return wrong(of, fmt::format("beamCount is {}, but {} beams follow", *count, beams));
     }
-    std::ranges::sort(out.runs);
-    // The runs of one beam lie apart; those of a channel that is there twice need not.
-    const auto meet = [](const LsssRun& a, const LsssRun& b) {
-      return a.channel == b.channel && b.first_sample - a.first_sample < a.count;
-    };
-    const auto twice = std::ranges::adjacent_find(out.runs, meet);
-    if (twice == out.runs.end()) return out;
-    return wrong(of, fmt::format("samples of channel {} stand there twice", twice->channel + first_));
+    return joined(of, std::move(out));
+  }
+
+  /// Sorted; what lies next to each other becomes one run.
+  Result<LsssPing> joined(const Xml& of, LsssPing ping) const {
+    std::ranges::sort(ping.runs);
+    std::size_t kept = 0;
+    for (const LsssRun& run : ping.runs) {
+      LsssRun* const last = kept > 0 && ping.runs[kept - 1].channel == run.channel ? &ping.runs[kept - 1] : nullptr;
+      const std::int64_t gap = last != nullptr ? run.first_sample - last->first_sample - last->count : 1;
+      if (gap < 0) return wrong(of, fmt::format("samples of channel {} stand there twice", run.channel + first_));
+      if (gap == 0) {
+        last->count += run.count;
+      } else {
+        ping.runs[kept++] = run;
+      }
+    }
+    ping.runs.resize(kept);
+    return ping;
   }
 
   Result<void> beam(const Xml& of, std::vector<LsssRun>& runs) const {
@@ -165,7 +176,7 @@ class WorkReader {
     return stretches(of, static_cast<std::int32_t>(*channel - first_), *length, runs);
   }
 
-  /// "first count gap count ...": what lies next to each other becomes one run.
+  /// "first count gap count ..."
   Result<void> stretches(const Xml& of, std::int32_t channel, std::int64_t length, std::vector<LsssRun>& runs) const {
     std::string_view text = of.attribute("range").value();
     const auto expected = [&](std::string_view what, std::string_view said) {
@@ -193,11 +204,7 @@ class WorkReader {
       at += *skip;
       if (at + *count > length)
         return expected(fmt::format("sample {}", at + *count - 1 + first_), "beyond beamLength");
-      if (begun && *skip == 0) {
-        runs.back().count += static_cast<std::int32_t>(*count);
-      } else {
-        runs.push_back({channel, static_cast<std::int32_t>(at), static_cast<std::int32_t>(*count)});
-      }
+      runs.push_back({channel, static_cast<std::int32_t>(at), static_cast<std::int32_t>(*count)});
       at += *count;
       begun = true;
     }

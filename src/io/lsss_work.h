@@ -36,7 +36,7 @@ struct LsssRun {
 
 struct LsssPing {
   TimeNs time = 0;            ///< of the datagrams
-  std::vector<LsssRun> runs;  ///< sorted, without overlap
+  std::vector<LsssRun> runs;  ///< sorted, with gaps between them
 };
 
 struct LsssSpecies {
@@ -71,7 +71,7 @@ struct LsssSchool {
 struct LsssCells {
   std::size_t school = 0;       ///< index in the work file
   std::int64_t ping_index = 0;  ///< in the observation
-  std::vector<Run> runs;        ///< rows = fan * beams + beam of the grid; sorted, without overlap
+  std::vector<Run> runs;        ///< rows = fan * beams + beam of the grid; sorted, with gaps between them
 };
 
 struct LsssPlaced {

@@ -72,6 +72,14 @@ TEST(LsssWork, RangesAreCountsAndGapsFromTheFirstSampleOn) {
   EXPECT_EQ(main_species(schools->at(1)), "");
 }
 
+TEST(LsssWork, AChannelMayBeListedTwice) {
+  const auto schools = parse_lsss_work(with("<beam channel=\"1\" beamLength=\"60\" range=\" 60  1 \"",
+                                            "<beam channel=\"3\" beamLength=\"60\" range=\"25 2 6 3\""),
+                                       "a.work", from_one);
+  ASSERT_TRUE(schools) << to_line(schools.error());
+  EXPECT_THAT(schools->at(0).pings[0].runs, ElementsAre(LsssRun{2, 20, 15})) << "33 to 35 lie behind 32";
+}
+
 TEST(LsssWork, NumbersMayCountFromZero) {
   const auto schools = parse_lsss_work(with(" 60  1 ", "59 1"), "a.work", from_zero);
   ASSERT_TRUE(schools) << to_line(schools.error());
