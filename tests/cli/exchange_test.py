@@ -19,6 +19,10 @@ try:
     import numpy
 except ImportError:
     numpy = None
+try:
+    import netCDF4
+except ImportError:
+    netCDF4 = None
 
 
 def ply(file):
@@ -335,6 +339,70 @@ class Echoview(Case):
                 self.assertEqual(status, "1")
                 iso = f"{date[:4]}-{date[4:6]}-{date[6:]}T{time[:2]}:{time[2:4]}:{time[4:6]}.{time[6:9]}Z"
                 self.assertAlmostEqual(float(depth), depths[iso], delta=0.05 * depths[iso])
+
+
+def work_voxels(file, first):
+    """(school, FILETIME, channel and sample from 0) of each voxel of a work file whose numbers count from `first`."""
+    root = xml.etree.ElementTree.parse(file).getroot()
+    assert root.tag == "schools"
+    for school in root.findall("schoolData"):
+        for ping in school.findall("schoolMask/pingMask"):
+            beams = ping.findall("beam")
+            assert len(beams) == int(ping.get("beamCount")) > 0
+            for beam in beams:
+                numbers = [int(n) for n in beam.get("range").split()]
+                assert len(numbers) % 2 == 0
+                for k in range(0, len(numbers), 2):
+                    begin = sum(numbers[:k + 1])
+                    assert first <= begin < begin + numbers[k + 1] <= int(beam.get("beamLength")) + first
+                    for sample in range(begin, begin + numbers[k + 1]):
+                        yield int(school.get("ObjectNumber")), int(ping.get("pingNtDate")), int(beam.get("channel")) - first, sample - first
+
+
+def product_voxels(file):
+    """The same of a product."""
+    with netCDF4.Dataset(file) as product:
+        mask = product["mask"]
+        times = [int(t) // 100 + 116444736 * 10**9 for t in product["pings/time_ns"][:]]
+        for school, ping, channel, begin, count in zip(*(mask[name][:].tolist() for name in (
+                "school_id", "ping_index", "channel", "first_sample", "sample_count"))):
+            for sample in range(begin, begin + count):
+                yield school, times[ping], channel, sample
+
+
+class Lsss(Case):
+    def test_work_files_hold_the_voxels_of_the_tables_and_products(self):
+        rejected = {(r["observation"], int(r["school_id"])) for r in sonarx.read_csv(OUT / "schools.csv") if r["status"] == "rejected"}
+        wanted = {}
+        for row in sonarx.read_csv(OUT / "school_pings.csv"):
+            key = row["observation"], int(row["school_id"])
+            if key not in rejected:
+                wanted[key] = wanted.get(key, 0) + int(row["n_voxels"])
+        for first, more in ((1, ()), (0, ("--count-from", "0"))):
+            dest = self.fresh(f"export-lsss-{first}")
+            self.sonarx("export", OUT, "--to", "lsss", "-o", dest, *more)
+            counted = {}
+            for file in sorted(dest.glob("*.work")):
+                voxels = list(work_voxels(file, first))
+                self.assertEqual(len(voxels), len(set(voxels)), "each once")
+                for school, *_ in voxels:
+                    counted[file.stem, school] = counted.get((file.stem, school), 0) + 1
+                if netCDF4 is not None:
+                    self.assertEqual(set(voxels), {v for v in product_voxels(OUT / "products" / f"{file.stem}.nc")
+                                                   if (file.stem, v[0]) not in rejected})
+            self.assertEqual(counted, wanted)
+
+    @unittest.skipIf(shutil.which("xmllint") is None, "xmllint is not installed")
+    def test_xmllint_reads_it(self):
+        dest = self.fresh("export-lsss-lint")
+        self.sonarx("export", OUT, "--to", "lsss", "-o", dest)
+        for file in dest.glob("*.work"):
+            done = subprocess.run(["xmllint", "--noout", file], capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_the_numbering_belongs_to_it(self):
+        self.one_line_error("export", OUT, "--to", "csv", "--count-from", "0", "-o", self.fresh("export-lsss-none"), code=2,
+                            names="--count-from: belongs to --to lsss")
 
 
 class Page(html.parser.HTMLParser):
