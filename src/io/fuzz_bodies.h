@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/check.h"
@@ -141,31 +142,33 @@ inline void school_tables(std::string_view text) {
 /// Masks of a work file lie apart, in order, and within the grid that they are placed in; written, they are the same.
 inline void lsss_work(std::string_view text) {
   ObservationProduct product = example::empty("obs-0001", 4);
-  std::vector<TimeNs> times;
-  for (const PingNavigation& ping : product.pings) times.push_back(ping.time);
-  const GridRecord& grid = *product.grid;
+  product.schools.resize(1);
+  const GridRecord& record = *product.grid;
+  const std::vector<int> row_of_channel = record.grid.row_of_channel();
+  const auto placed = [&](std::string work, LsssNumbering numbering) {
+    const auto schools = parse_lsss_work(std::move(work), "fuzz", numbering);
+    if (!schools) return std::vector<LsssCells>{};
+    return place_lsss(*schools, record.grid, record.sample_count, product.pings, "fuzz")
+        .value_or(std::vector<LsssCells>{});
+  };
   for (const LsssNumbering numbering : {LsssNumbering::from_one, LsssNumbering::from_zero}) {
-    const auto schools = parse_lsss_work(std::string(text), "fuzz", numbering);
-    if (!schools) continue;
-    const auto placed = place_lsss(*schools, grid, times, "fuzz");
-    if (!placed) continue;
-    for (const LsssCells& cells : placed->cells) {
-      SONAR_CHECK(cells.school < schools->size() && cells.ping_index >= 0 && cells.ping_index < std::ssize(times));
-      std::int64_t row = -1;
-      std::int64_t end = 0;
-      for (const Run& run : cells.runs) {
-        SONAR_CHECK(run.row > row || (run.row == row && run.first_sample > end));
-        row = run.row;
-        end = run.end();
-        SONAR_CHECK(run.first_sample >= 0 && run.count > 0 && row < example::kFans * example::kBeams);
-        SONAR_CHECK(end <= grid.sample_count[static_cast<std::size_t>(row / example::kBeams)]);
+    for (const LsssCells& cells : placed(std::string(text), numbering)) {
+      SONAR_CHECK(cells.ping_index >= 0 && cells.ping_index < std::ssize(product.pings) && !cells.runs.empty());
+      PingMask mask;
+      LsssRun before{-1, 0, 0};
+      for (const LsssRun& run : cells.runs) {
+        SONAR_CHECK(run.channel > before.channel ||
+                    (run.channel == before.channel && run.first_sample > before.first_sample + before.count));
+        const int row = row_of_channel.at(static_cast<std::size_t>(run.channel));
+        const std::int32_t samples = record.sample_count.at(static_cast<std::size_t>(row / record.grid.beams()));
+        SONAR_CHECK(run.first_sample >= 0 && run.count > 0 && run.first_sample + run.count <= samples);
+        mask.runs.push_back({row, run.first_sample, run.count});
+        before = run;
       }
-      product.schools = {SchoolRow{}};
-      product.masks = {{0, cells.ping_index, {cells.runs, {}}}};
-      const auto again = parse_lsss_work(lsss_work_text(product, numbering), "fuzz", numbering);
-      SONAR_CHECK(again.has_value());
-      const auto same = place_lsss(*again, grid, times, "fuzz");
-      SONAR_CHECK(same.has_value() && same->cells.size() == 1 && same->cells[0].runs == cells.runs);
+      std::ranges::sort(mask.runs);
+      product.masks = {{0, cells.ping_index, mask}};
+      const auto again = placed(lsss_work_text(product, numbering), numbering);
+      SONAR_CHECK(again.size() == 1 && again[0].ping_index == cells.ping_index && again[0].runs == cells.runs);
     }
   }
 }

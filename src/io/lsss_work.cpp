@@ -98,7 +98,7 @@ class WorkReader {
       beam_ = 0;
       auto read = ping(one);
       if (!read) return pass_on(read);
-      out.pings.push_back(std::move(*read));
+      if (!read->runs.empty()) out.pings.push_back(std::move(*read));
     }
     std::ranges::sort(out.pings, {}, &LsssPing::time);
     const auto twice = std::ranges::adjacent_find(out.pings, {}, &LsssPing::time);
@@ -219,9 +219,9 @@ class WorkReader {
 };
 
 /// The observation's ping at a time; -1 = none.
-std::int64_t ping_at(std::span<const TimeNs> times, TimeNs time) {
-  const auto found = std::ranges::lower_bound(times, time - kSamePing);
-  return found != times.end() && *found <= time + kSamePing ? found - times.begin() : -1;
+std::int64_t ping_at(std::span<const PingNavigation> pings, TimeNs time) {
+  const auto found = std::ranges::lower_bound(pings, time - kSamePing, {}, &PingNavigation::time);
+  return found != pings.end() && found->time <= time + kSamePing ? found - pings.begin() : -1;
 }
 
 bool is_category(const std::string& species) { return number_of<std::int64_t>(species).value_or(-1) >= 0; }
@@ -300,35 +300,30 @@ std::string main_species(const LsssSchool& school) {
   return std::to_string(std::ranges::max_element(shares, {}, &Share::second)->first);
 }
 
-Result<LsssPlaced> place_lsss(std::span<const LsssSchool> schools, const GridRecord& grid,
-                              std::span<const TimeNs> times, const std::string& file) {
-  const std::vector<int> row_of_channel = grid.grid.row_of_channel();
-  const int beams = grid.grid.beams();
+Result<std::vector<LsssCells>> place_lsss(std::span<const LsssSchool> schools, const BeamGrid& grid,
+                                          std::span<const std::int32_t> sample_count,
+                                          std::span<const PingNavigation> pings, const std::string& file) {
+  const std::vector<int> row_of_channel = grid.row_of_channel();
   const auto mismatch = [&](std::size_t school, const LsssPing& ping, const std::string& what) {
     return fail(ErrorCode::mismatch, fmt::format("school {}: ping of {}: {}", school + 1, iso_time(ping.time), what),
                 {.file = file});
   };
-  LsssPlaced out;
+  std::vector<LsssCells> out;
   for (std::size_t i = 0; i < schools.size(); ++i) {
     for (const LsssPing& ping : schools[i].pings) {
-      const std::int64_t index = ping_at(times, ping.time);
-      if (index < 0) {
-        ++out.pings_elsewhere;
-        continue;
-      }
-      LsssCells cells{i, index, {}};
+      const std::int64_t index = ping_at(pings, ping.time);
+      if (index < 0) continue;
       for (const LsssRun& run : ping.runs) {
         const bool known = run.channel < std::ssize(row_of_channel);
         const int row = known ? row_of_channel[static_cast<std::size_t>(run.channel)] : -1;
         if (row < 0) return mismatch(i, ping, fmt::format("no fan has channel {} (from 0)", run.channel));
-        const std::int32_t samples = grid.sample_count[static_cast<std::size_t>(row / beams)];
+        const std::int32_t samples = sample_count[static_cast<std::size_t>(row / grid.beams())];
         if (run.count > samples - run.first_sample) {
-          return mismatch(i, ping, fmt::format("channel {} has {} samples, and the mask more", run.channel, samples));
+          return mismatch(i, ping,
+                          fmt::format("channel {} (from 0) has {} samples, and the mask more", run.channel, samples));
         }
-        cells.runs.push_back({row, run.first_sample, run.count});
       }
-      std::ranges::sort(cells.runs);
-      if (!cells.runs.empty()) out.cells.push_back(std::move(cells));
+      out.push_back({i, index, ping.runs});
     }
   }
   return out;

@@ -10,7 +10,6 @@
 
 #include "base/result.h"
 #include "base/time.h"
-#include "model/mask.h"
 #include "model/product.h"
 
 namespace sonar {
@@ -49,7 +48,7 @@ struct LsssSchool {
   std::int64_t object_number = 0;     ///< 0 = not told
   std::int64_t school_id_number = 0;  ///< 0 = not told
   std::vector<LsssSpecies> species;   ///< empty = not interpreted
-  std::vector<LsssPing> pings;        ///< sorted by time, each once; empty = no mask
+  std::vector<LsssPing> pings;        ///< with a run; sorted by time, each once; empty = no mask
 };
 
 /// Masks of a work file. What else stands in it (growth parameters, figures) is passed over.
@@ -71,20 +70,17 @@ struct LsssSchool {
 struct LsssCells {
   std::size_t school = 0;       ///< index in the work file
   std::int64_t ping_index = 0;  ///< in the observation
-  std::vector<Run> runs;        ///< rows = fan * beams + beam of the grid; sorted, with gaps between them
+  std::vector<LsssRun> runs;    ///< of channels in fans; BeamGrid::row_of_channel() tells fan and beam
 };
 
-struct LsssPlaced {
-  std::vector<LsssCells> cells;     ///< by school, then ping
-  std::size_t pings_elsewhere = 0;  ///< masks of pings that the observation does not have
-};
-
-/// Cells of the masks in an observation: the pings are those within a millisecond.
-/// times   [ping_index] of the datagrams, rising
-/// file    for messages
-/// errors  mismatch: a channel or a sample that the grid does not have
-[[nodiscard]] Result<LsssPlaced> place_lsss(std::span<const LsssSchool> schools, const GridRecord& grid,
-                                            std::span<const TimeNs> times, const std::string& file);
+/// The masks of those pings that an observation has: within a millisecond. By school, then ping.
+/// sample_count  [fan]
+/// pings         of the observation, their times rising
+/// file          for messages
+/// errors        mismatch: a channel that is in no fan, or more samples than its fan has
+[[nodiscard]] Result<std::vector<LsssCells>> place_lsss(std::span<const LsssSchool> schools, const BeamGrid& grid,
+                                                        std::span<const std::int32_t> sample_count,
+                                                        std::span<const PingNavigation> pings, const std::string& file);
 
 /// The masks of an observation as a work file. A species that is a whole number is taken for a category of LSSS, at the middle
 /// of the fans' frequencies; other species are left out. Figures and growth parameters are left out too.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -151,26 +152,29 @@ ObservationProduct two_schools() {
   return product;
 }
 
-std::vector<TimeNs> times_of(const ObservationProduct& product) {
-  std::vector<TimeNs> times;
-  for (const PingNavigation& ping : product.pings) times.push_back(ping.time);
-  return times;
+Result<std::vector<LsssCells>> placed_in(const ObservationProduct& product, std::span<const LsssSchool> schools) {
+  return place_lsss(schools, product.grid->grid, product.grid->sample_count, product.pings, "a.work");
 }
 
 TEST(LsssWork, WhatIsWrittenHasTheSameCellsWhenItIsRead) {
   const ObservationProduct product = two_schools();
+  const std::vector<int> row_of_channel = product.grid->grid.row_of_channel();
   for (const LsssNumbering numbering : {from_one, from_zero}) {
     const auto schools = parse_lsss_work(lsss_work_text(product, numbering), "a.work", numbering);
     ASSERT_TRUE(schools) << to_line(schools.error());
-    const auto placed = place_lsss(*schools, *product.grid, times_of(product), "a.work");
-    ASSERT_TRUE(placed) << to_line(placed.error());
-    EXPECT_EQ(placed->pings_elsewhere, 0U);
-    ASSERT_EQ(placed->cells.size(), product.masks.size());
+    const auto cells = placed_in(product, *schools);
+    ASSERT_TRUE(cells) << to_line(cells.error());
+    ASSERT_EQ(cells->size(), product.masks.size());
     for (std::size_t i = 0; i < product.masks.size(); ++i) {
-      const LsssCells& cells = placed->cells[i];
-      EXPECT_EQ(schools->at(cells.school).object_number, product.masks[i].school_id);
-      EXPECT_EQ(cells.ping_index, product.masks[i].ping_index);
-      EXPECT_EQ(cells.runs, product.masks[i].mask.runs);
+      const SchoolMask& mask = product.masks[i];
+      EXPECT_EQ(schools->at(cells->at(i).school).object_number, mask.school_id);
+      EXPECT_EQ(cells->at(i).ping_index, mask.ping_index);
+      std::vector<sonar::Run> runs;
+      for (const LsssRun& run : cells->at(i).runs) {
+        runs.push_back({row_of_channel[static_cast<std::size_t>(run.channel)], run.first_sample, run.count});
+      }
+      std::ranges::sort(runs);
+      EXPECT_EQ(runs, mask.mask.runs);
     }
   }
 }
@@ -204,28 +208,28 @@ TEST(LsssWork, OnlyWhatLsssCanHoldIsWritten) {
 }
 
 TEST(LsssWork, MasksArePlacedInTheObservationThatHasTheirPings) {
-  const GridRecord grid = example::grid();
-  const std::vector<TimeNs> times = {0, kSecondNs, 2 * kSecondNs};
+  ObservationProduct product = example::empty("obs-0001", 3);
+  for (std::size_t i = 0; i < 3; ++i) product.pings[i].time = static_cast<TimeNs>(i) * kSecondNs;
   const auto place = [&](TimeNs time, LsssRun run) {
     LsssSchool school;
     school.pings = {{time, {run}}};
-    return place_lsss(std::vector<LsssSchool>{school}, grid, times, "a.work");
+    return placed_in(product, std::vector<LsssSchool>{school});
   };
   for (const TimeNs off : {-kSecondNs / 1000, TimeNs{0}, kSecondNs / 1000}) {
-    const auto placed = place(kSecondNs + off, {0, 50, 8});
-    ASSERT_TRUE(placed && placed->cells.size() == 1) << off;
-    EXPECT_EQ(placed->cells[0].ping_index, 1);
-    EXPECT_THAT(placed->cells[0].runs, ElementsAre(sonar::Run{11, 50, 8})) << "channel 0 is the last row";
+    const auto cells = place(kSecondNs + off, {0, 50, 8});
+    ASSERT_TRUE(cells && cells->size() == 1) << off;
+    EXPECT_EQ(cells->at(0).ping_index, 1);
+    EXPECT_THAT(cells->at(0).runs, ElementsAre(LsssRun{0, 50, 8}));
   }
   for (const TimeNs time : {kSecondNs - kSecondNs / 500, kSecondNs + kSecondNs / 500, 3 * kSecondNs, -kSecondNs}) {
-    const auto placed = place(time, {99, 0, 1});
-    ASSERT_TRUE(placed) << "what lies in other pings need not fit";
-    EXPECT_EQ(placed->pings_elsewhere, 1U);
-    EXPECT_TRUE(placed->cells.empty());
+    const auto cells = place(time, {99, 0, 1});
+    ASSERT_TRUE(cells) << "what lies in other pings need not fit";
+    EXPECT_TRUE(cells->empty());
   }
-  for (const auto& [run, expected] : {std::pair{LsssRun{12, 0, 1}, "no fan has channel 12 (from 0)"},
-                                      std::pair{LsssRun{0, 50, 9}, "channel 0 has 58 samples, and the mask more"},
-                                      std::pair{LsssRun{11, 70, 1}, "channel 11 has 60 samples"}}) {
+  for (const auto& [run, expected] :
+       {std::pair{LsssRun{12, 0, 1}, "no fan has channel 12 (from 0)"},
+        std::pair{LsssRun{0, 50, 9}, "channel 0 (from 0) has 58 samples, and the mask more"},
+        std::pair{LsssRun{11, 70, 1}, "channel 11 (from 0) has 60 samples"}}) {
     const auto refused = place(kSecondNs, run);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::mismatch);
