@@ -2,6 +2,7 @@
 """What other programs are given, read back by readers that share nothing with ours."""
 import base64
 import html.parser
+import importlib
 import json
 import math
 import re
@@ -66,6 +67,17 @@ def glb(file):
     return said, meshes
 
 
+def through_vtk(file, module, kind):
+    """The file as VTK itself reads it; called last, for the test is skipped where VTK is not installed."""
+    try:
+        reader = getattr(importlib.import_module(f"vtkmodules.{module}"), kind)()
+    except ImportError:
+        raise unittest.SkipTest("python3-vtk9 is not installed") from None
+    reader.SetFileName(str(file))
+    reader.Update()
+    return reader.GetOutput()
+
+
 def volume_and_middle(corners, triangles):
     a, b, c = (corners[triangles[:, k]] - corners[0] for k in range(3))
     six = numpy.einsum("ij,ij->i", a, numpy.cross(b, c))
@@ -103,6 +115,9 @@ class Meshes(Case):
             east = (float(row["longitude"]) - float(origin[1])) * 111320 * math.cos(math.radians(float(origin[0])))
             for told, expected in zip(middle, (east, north, -float(row["depth_m"]))):
                 self.assertAlmostEqual(told, expected, delta=0.15 * volume ** (1 / 3) + 0.004 * abs(expected))
+        surface = through_vtk(files[0], "vtkIOPLY", "vtkPLYReader")
+        _, corners, triangles = ply(files[0])
+        self.assertEqual((surface.GetNumberOfPoints(), surface.GetNumberOfPolys()), (len(corners), len(triangles)))
 
     def test_gltf_has_the_same_meshes_with_y_up(self):
         dest = self.fresh("export-ply-too")
@@ -120,6 +135,9 @@ class Meshes(Case):
             _, corners, same = ply(dest / f"{name}.ply")
             self.assertTrue((triangles == same).all())
             self.assertTrue(numpy.allclose(places, numpy.stack([corners[:, 0], corners[:, 2], -corners[:, 1]], 1)))
+        file = min(folder.glob("*.glb"))
+        self.assertEqual(through_vtk(file, "vtkIOGeometry", "vtkGLTFReader").GetNumberOfPoints(),
+                         sum(len(places) for places, _ in glb(file)[1].values()))
 
 
 KINDS = {"Float32": "<f4", "Float64": "<f8", "Int64": "<i8", "UInt8": "u1"}
@@ -140,18 +158,6 @@ def vtk(file):
         width = int(array.get("NumberOfComponents"))
         arrays[array.get("Name")] = values.reshape(-1, width) if width > 1 else values
     return said, arrays
-
-
-def through_vtk(file, kind):
-    """The file as VTK itself reads it; None where it is not installed."""
-    try:
-        from vtkmodules import vtkIOXML
-    except ImportError:
-        return None
-    reader = getattr(vtkIOXML, kind)()
-    reader.SetFileName(str(file))
-    reader.Update()
-    return reader.GetOutput()
 
 
 @unittest.skipIf(numpy is None, "python3-numpy is not installed")
@@ -182,9 +188,8 @@ class ParaView(Case):
                 self.assertEqual(ours.sum(), int(row["n_voxels"]))
                 self.assertAlmostEqual(volume[ours].sum() / float(row["volume_m3"]), 1, delta=0.03)
             self.assertTrue((arrays["confidence"] > 0).all() and (arrays["confidence"] <= 1).all())
-        grid = through_vtk(files[0], "vtkXMLUnstructuredGridReader")
-        if grid is not None:
-            self.assertEqual(grid.GetNumberOfCells(), len(vtk(files[0])[1]["types"]))
+        grid = through_vtk(files[0], "vtkIOXML", "vtkXMLUnstructuredGridReader")
+        self.assertEqual(grid.GetNumberOfCells(), len(vtk(files[0])[1]["types"]))
 
     def test_the_series_is_in_the_order_of_time(self):
         dest = self.fresh("export-vtu-series")
@@ -212,9 +217,8 @@ class ParaView(Case):
         self.assertAlmostEqual(float(numpy.nanmax(arrays["Sv"][ours])), float(row["sv_max_db"]), delta=0.5)
         depth = -(arrays["Points"][ours, 2] * arrays["confidence"][ours]).sum() / arrays["confidence"][ours].sum()
         self.assertAlmostEqual(depth / float(row["depth_m"]), 1, delta=0.1)
-        grid = through_vtk(file, "vtkXMLStructuredGridReader")
-        if grid is not None:
-            self.assertEqual(grid.GetNumberOfPoints(), len(arrays["Points"]))
+        grid = through_vtk(file, "vtkIOXML", "vtkXMLStructuredGridReader")
+        self.assertEqual(grid.GetNumberOfPoints(), len(arrays["Points"]))
 
 
 class Ices(Case):
