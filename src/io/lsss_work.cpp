@@ -219,9 +219,9 @@ class WorkReader {
 };
 
 /// The observation's ping at a time; -1 = none.
-std::int64_t ping_at(std::span<const PingNavigation> pings, TimeNs time) {
-  const auto found = std::ranges::lower_bound(pings, time - kSamePing, {}, &PingNavigation::time);
-  return found != pings.end() && found->time <= time + kSamePing ? found - pings.begin() : -1;
+std::int64_t ping_at(std::span<const TimeNs> times, TimeNs time) {
+  const auto found = std::ranges::lower_bound(times, time - kSamePing);
+  return found != times.end() && *found <= time + kSamePing ? found - times.begin() : -1;
 }
 
 bool is_category(const std::string& species) { return number_of<std::int64_t>(species).value_or(-1) >= 0; }
@@ -237,11 +237,14 @@ std::string species_text(const ObservationProduct& product, const SchoolRow& sch
       (low + high) / 2000.0, school.species);
 }
 
-std::string ping_text(const ObservationProduct& product, const SchoolMask& mask, std::int64_t first) {
+std::string ping_text(const ObservationProduct& product, const SchoolMask& mask, TimeNs offset_ns, std::int64_t first) {
   const BeamGrid& grid = product.grid->grid;
   std::map<int, std::vector<Run>> beams;  // by channel
   for (const Run& run : mask.mask.runs) beams[grid.channel[static_cast<std::size_t>(run.row)]].push_back(run);
-  const TimeNs time = product.pings[static_cast<std::size_t>(mask.ping_index)].time;
+  // Unsigned: a foreign file's times may be as far apart as no difference can say.
+  const auto time =
+      static_cast<TimeNs>(static_cast<std::uint64_t>(product.pings[static_cast<std::size_t>(mask.ping_index)].time) -
+                          static_cast<std::uint64_t>(offset_ns));
   std::string out =
       fmt::format("      <pingMask pingNtDate=\"{}\" beamCount=\"{}\">\n", filetime_from_time(time), beams.size());
   for (const auto& [channel, runs] : beams) {
@@ -301,8 +304,8 @@ std::string main_species(const LsssSchool& school) {
 }
 
 Result<std::vector<LsssCells>> place_lsss(std::span<const LsssSchool> schools, const BeamGrid& grid,
-                                          std::span<const std::int32_t> sample_count,
-                                          std::span<const PingNavigation> pings, const std::string& file) {
+                                          std::span<const std::int32_t> sample_count, std::span<const TimeNs> times,
+                                          const std::string& file) {
   const std::vector<int> row_of_channel = grid.row_of_channel();
   const auto mismatch = [&](std::size_t school, const LsssPing& ping, const std::string& what) {
     return fail(ErrorCode::mismatch, fmt::format("school {}: ping of {}: {}", school + 1, iso_time(ping.time), what),
@@ -311,7 +314,7 @@ Result<std::vector<LsssCells>> place_lsss(std::span<const LsssSchool> schools, c
   std::vector<LsssCells> out;
   for (std::size_t i = 0; i < schools.size(); ++i) {
     for (const LsssPing& ping : schools[i].pings) {
-      const std::int64_t index = ping_at(pings, ping.time);
+      const std::int64_t index = ping_at(times, ping.time);
       if (index < 0) continue;
       for (const LsssRun& run : ping.runs) {
         const bool known = run.channel < std::ssize(row_of_channel);
@@ -329,7 +332,7 @@ Result<std::vector<LsssCells>> place_lsss(std::span<const LsssSchool> schools, c
   return out;
 }
 
-std::string lsss_work_text(const ObservationProduct& product, LsssNumbering numbering) {
+std::string lsss_work_text(const ObservationProduct& product, TimeNs offset_ns, LsssNumbering numbering) {
   if (!product.grid) return {};
   const std::int64_t first = first_number(numbering);
   std::string schools;
@@ -340,7 +343,7 @@ std::string lsss_work_text(const ObservationProduct& product, LsssNumbering numb
     for (const SchoolMask& mask :
          std::ranges::equal_range(product.masks, school.school_id, {}, &SchoolMask::school_id)) {
       if (mask.ping_index < 0 || mask.ping_index >= std::ssize(product.pings) || mask.mask.empty()) continue;
-      pings += ping_text(product, mask, first);
+      pings += ping_text(product, mask, offset_ns, first);
     }
     if (pings.empty()) continue;
     schools += fmt::format("  <schoolData ObjectNumber=\"{0}\" SchoolIdNumber=\"{0}\">\n{1}    <schoolMask>\n{2}",

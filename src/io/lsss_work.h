@@ -75,17 +75,18 @@ struct LsssCells {
 
 /// The masks of those pings that an observation has: within a millisecond. By school, then ping.
 /// sample_count  [fan]
-/// pings         of the observation, their times rising
+/// times         [ping_index] of the datagrams, rising
 /// file          for messages
 /// errors        mismatch: a channel that is in no fan, or more samples than its fan has
 [[nodiscard]] Result<std::vector<LsssCells>> place_lsss(std::span<const LsssSchool> schools, const BeamGrid& grid,
                                                         std::span<const std::int32_t> sample_count,
-                                                        std::span<const PingNavigation> pings, const std::string& file);
+                                                        std::span<const TimeNs> times, const std::string& file);
 
 /// The masks of an observation as a work file. A species that is a whole number is taken for a category of LSSS, at the middle
 /// of the fans' frequencies; other species are left out. Figures and growth parameters are left out too.
-/// product  with its masks and a grid; rejected schools are left out
-/// out      empty where no school has a mask
-[[nodiscard]] std::string lsss_work_text(const ObservationProduct& product, LsssNumbering numbering);
+/// product    with its masks and a grid; rejected schools are left out
+/// offset_ns  what the product's recipe added to the times of the datagrams
+/// out        empty where no school has a mask
+[[nodiscard]] std::string lsss_work_text(const ObservationProduct& product, TimeNs offset_ns, LsssNumbering numbering);
 
 }  // namespace sonar

@@ -153,14 +153,16 @@ ObservationProduct two_schools() {
 }
 
 Result<std::vector<LsssCells>> placed_in(const ObservationProduct& product, std::span<const LsssSchool> schools) {
-  return place_lsss(schools, product.grid->grid, product.grid->sample_count, product.pings, "a.work");
+  std::vector<TimeNs> times;
+  for (const PingNavigation& ping : product.pings) times.push_back(ping.time);
+  return place_lsss(schools, product.grid->grid, product.grid->sample_count, times, "a.work");
 }
 
 TEST(LsssWork, WhatIsWrittenHasTheSameCellsWhenItIsRead) {
   const ObservationProduct product = two_schools();
   const std::vector<int> row_of_channel = product.grid->grid.row_of_channel();
   for (const LsssNumbering numbering : {from_one, from_zero}) {
-    const auto schools = parse_lsss_work(lsss_work_text(product, numbering), "a.work", numbering);
+    const auto schools = parse_lsss_work(lsss_work_text(product, 0, numbering), "a.work", numbering);
     ASSERT_TRUE(schools) << to_line(schools.error());
     const auto cells = placed_in(product, *schools);
     ASSERT_TRUE(cells) << to_line(cells.error());
@@ -181,30 +183,32 @@ TEST(LsssWork, WhatIsWrittenHasTheSameCellsWhenItIsRead) {
 
 // Rows 1 and 11 of the example are channels 10 and 0; its second ping is at 1 700 000 002.1234567 s.
 TEST(LsssWork, ChannelsAndTimesAreThoseOfTheRawFile) {
-  const std::string text = lsss_work_text(two_schools(), from_one);
+  const std::string text = lsss_work_text(two_schools(), 0, from_one);
   EXPECT_THAT(text, HasSubstr("<pingMask pingNtDate=\"133444736021234567\" beamCount=\"3\">\n"
                               "        <beam channel=\"1\" beamLength=\"58\" range=\"56 3\"/>\n"));
   EXPECT_THAT(text, HasSubstr("<beam channel=\"11\" beamLength=\"60\" range=\"6 3 2 2\"/>"));
-  EXPECT_THAT(lsss_work_text(two_schools(), from_zero),
+  EXPECT_THAT(lsss_work_text(two_schools(), 0, from_zero),
               HasSubstr("channel=\"10\" beamLength=\"60\" range=\"5 3 2 2\"/>"));
+  EXPECT_THAT(lsss_work_text(two_schools(), -3 * kSecondNs, from_one), HasSubstr("pingNtDate=\"133444736051234567\""))
+      << "the recipe took 3 s from the datagrams' times";
 }
 
 TEST(LsssWork, OnlyWhatLsssCanHoldIsWritten) {
   ObservationProduct product = two_schools();
   product.schools[0].species = "6009";
   product.schools[1].species = "<herring>";
-  const std::string text = lsss_work_text(product, from_one);
+  const std::string text = lsss_work_text(product, 0, from_one);
   const auto schools = parse_lsss_work(text, "a.work", from_one);
   ASSERT_TRUE(schools) << to_line(schools.error());
   EXPECT_EQ(main_species(schools->at(0)), "6009");
   EXPECT_EQ(main_species(schools->at(1)), "");
   EXPECT_THAT(text, Not(HasSubstr("herring")));
   product.schools[0].status = "rejected";
-  EXPECT_THAT(lsss_work_text(product, from_one), Not(HasSubstr("ObjectNumber=\"2\"")));
+  EXPECT_THAT(lsss_work_text(product, 0, from_one), Not(HasSubstr("ObjectNumber=\"2\"")));
   product.schools[1].status = "rejected";
-  EXPECT_EQ(lsss_work_text(product, from_one), "");
+  EXPECT_EQ(lsss_work_text(product, 0, from_one), "");
   product.grid.reset();
-  EXPECT_EQ(lsss_work_text(product, from_one), "");
+  EXPECT_EQ(lsss_work_text(product, 0, from_one), "");
 }
 
 TEST(LsssWork, MasksArePlacedInTheObservationThatHasTheirPings) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <utility>
@@ -23,6 +24,7 @@
 #include "pipeline/exports/export_sv.h"
 #include "pipeline/exports/export_vtk.h"
 #include "pipeline/exports/track_edges.h"
+#include "pipeline/journal/earlier.h"
 #include "pipeline/tasks/merge.h"
 #include "pipeline/tasks/plan.h"
 #include "pipeline/tasks/survey_numbers.h"
@@ -174,7 +176,8 @@ Result<Exported> export_each(const Source& source, const ExportOptions& options,
 /// DEST/obs-0001.work of each observation that has masks.
 Result<Exported> export_lsss(const Source& source, const ExportOptions& options, Work& work) {
   const auto write = [&](const ObservationProduct& product, const fs::path& dest, const Work&) -> Result<Files> {
-    const std::string text = lsss_work_text(product, options.lsss);
+    const auto offset_ns = static_cast<TimeNs>(std::llround(time_offset_s(product.recipe_json) * 1e9));
+    const std::string text = lsss_work_text(product, offset_ns, options.lsss);
     if (text.empty()) return Files{};
     Files files = {dest / (product.observation + ".work")};
     if (auto written = write_file(files[0], text); !written) return pass_on(written);

@@ -51,6 +51,19 @@ TEST_F(Export, tables_maps_and_masks) {
   }
 }
 
+// The recipe may have moved the times of pings; other programs know those of the raw files.
+TEST_F(Export, lsss_has_the_times_of_the_datagrams) {
+  ObservationProduct p = example::empty("obs-0001", 5);
+  p.recipe_json = R"({"recipe_version":1,"navigation":{"time_offset_s":-2.5}})";
+  example::add_school(p, 1, 0, 3, example::block(1, 1, 2, 20, 8));
+  ASSERT_TRUE(write_product(p, folder_ / "out" / "products" / "obs-0001.nc"));
+  const auto written = run("lsss");
+  ASSERT_TRUE(written) << to_line(written.error());
+  const auto schools = read_lsss_work(folder_ / "lsss" / "obs-0001.work", LsssNumbering::from_one);
+  ASSERT_TRUE(schools) << to_line(schools.error());
+  EXPECT_EQ(schools->at(0).pings.at(0).time, example::kStart + 2'500'000'000);
+}
+
 TEST_F(Export, schools_have_the_numbers_of_the_tables) {
   const auto number = [this] {
     const auto csv = run("csv");
