@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/check.h"
@@ -19,9 +20,11 @@
 #include "io/csv.h"
 #include "io/csv_table.h"
 #include "io/index_cache.h"
+#include "io/lsss_work.h"
 #include "io/nav_series.h"
 #include "io/nmea.h"
 #include "io/ping_source.h"
+#include "io/product_example.h"
 #include "io/raw_index.h"
 #include "io/simrad/con1.h"
 #include "io/simrad/last_datagrams.h"
@@ -134,6 +137,41 @@ inline void school_tables(std::string_view text) {
   if (!table) return;
   table_rows<SchoolRow>(*table);
   table_rows<SchoolPingRow>(*table);
+}
+
+/// Masks of a work file lie apart, in order, and within the grid that they are placed in; written, they are the same.
+inline void lsss_work(std::string_view text) {
+  ObservationProduct product = example::empty("obs-0001", 4);
+  product.schools.resize(1);
+  std::vector<TimeNs> times;
+  for (const PingNavigation& ping : product.pings) times.push_back(ping.time);
+  const GridRecord& record = *product.grid;
+  const std::vector<int> row_of_channel = record.grid.row_of_channel();
+  const auto placed = [&](std::string work, LsssNumbering numbering) {
+    const auto schools = parse_lsss_work(std::move(work), "fuzz", numbering);
+    if (!schools) return std::vector<LsssCells>{};
+    return place_lsss(*schools, record.grid, record.sample_count, times, "fuzz").value_or(std::vector<LsssCells>{});
+  };
+  for (const LsssNumbering numbering : {LsssNumbering::from_one, LsssNumbering::from_zero}) {
+    for (const LsssCells& cells : placed(std::string(text), numbering)) {
+      SONAR_CHECK(cells.ping_index >= 0 && cells.ping_index < std::ssize(product.pings) && !cells.runs.empty());
+      PingMask mask;
+      LsssRun before{-1, 0, 0};
+      for (const LsssRun& run : cells.runs) {
+        SONAR_CHECK(run.channel > before.channel ||
+                    (run.channel == before.channel && run.first_sample > before.first_sample + before.count));
+        const int row = row_of_channel.at(static_cast<std::size_t>(run.channel));
+        const std::int32_t samples = record.sample_count.at(static_cast<std::size_t>(row / record.grid.beams()));
+        SONAR_CHECK(run.first_sample >= 0 && run.count > 0 && run.first_sample + run.count <= samples);
+        mask.runs.push_back({row, run.first_sample, run.count});
+        before = run;
+      }
+      std::ranges::sort(mask.runs);
+      product.masks = {{0, cells.ping_index, mask}};
+      const auto again = placed(lsss_work_text(product, 0, numbering), numbering);
+      SONAR_CHECK(again.size() == 1 && again[0].ping_index == cells.ping_index && again[0].runs == cells.runs);
+    }
+  }
 }
 
 /// A stored index is taken whole or not at all; so are the same bytes behind a right check sum, which no mutation would make.

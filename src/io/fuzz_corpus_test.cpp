@@ -36,6 +36,10 @@ TEST(FuzzCorpus, SchoolTables) {
   test::replay("school_tables", [](const std::string& text) { fuzz::school_tables(text); });
 }
 
+TEST(FuzzCorpus, LsssWork) {
+  test::replay("lsss_work", [](const std::string& text) { fuzz::lsss_work(text); });
+}
+
 TEST(FuzzCorpus, Product) {
   const test::CorpusFolder folder("product");
   const fuzz::ProductFuzz product(folder.path());

@@ -2,6 +2,7 @@
 """What other programs are given, read back by readers that share nothing with ours."""
 import base64
 import html.parser
+import importlib
 import json
 import math
 import re
@@ -19,6 +20,10 @@ try:
     import numpy
 except ImportError:
     numpy = None
+try:
+    import netCDF4
+except ImportError:
+    netCDF4 = None
 
 
 def ply(file):
@@ -62,6 +67,17 @@ def glb(file):
     return said, meshes
 
 
+def through_vtk(file, module, kind):
+    """The file as VTK itself reads it; called last, for the test is skipped where VTK is not installed."""
+    try:
+        reader = getattr(importlib.import_module(f"vtkmodules.{module}"), kind)()
+    except ImportError:
+        raise unittest.SkipTest("python3-vtk9 is not installed") from None
+    reader.SetFileName(str(file))
+    reader.Update()
+    return reader.GetOutput()
+
+
 def volume_and_middle(corners, triangles):
     a, b, c = (corners[triangles[:, k]] - corners[0] for k in range(3))
     six = numpy.einsum("ij,ij->i", a, numpy.cross(b, c))
@@ -99,6 +115,9 @@ class Meshes(Case):
             east = (float(row["longitude"]) - float(origin[1])) * 111320 * math.cos(math.radians(float(origin[0])))
             for told, expected in zip(middle, (east, north, -float(row["depth_m"]))):
                 self.assertAlmostEqual(told, expected, delta=0.15 * volume ** (1 / 3) + 0.004 * abs(expected))
+        surface = through_vtk(files[0], "vtkIOPLY", "vtkPLYReader")
+        _, corners, triangles = ply(files[0])
+        self.assertEqual((surface.GetNumberOfPoints(), surface.GetNumberOfPolys()), (len(corners), len(triangles)))
 
     def test_gltf_has_the_same_meshes_with_y_up(self):
         dest = self.fresh("export-ply-too")
@@ -116,6 +135,9 @@ class Meshes(Case):
             _, corners, same = ply(dest / f"{name}.ply")
             self.assertTrue((triangles == same).all())
             self.assertTrue(numpy.allclose(places, numpy.stack([corners[:, 0], corners[:, 2], -corners[:, 1]], 1)))
+        file = min(folder.glob("*.glb"))
+        self.assertEqual(through_vtk(file, "vtkIOGeometry", "vtkGLTFReader").GetNumberOfPoints(),
+                         sum(len(places) for places, _ in glb(file)[1].values()))
 
 
 KINDS = {"Float32": "<f4", "Float64": "<f8", "Int64": "<i8", "UInt8": "u1"}
@@ -136,18 +158,6 @@ def vtk(file):
         width = int(array.get("NumberOfComponents"))
         arrays[array.get("Name")] = values.reshape(-1, width) if width > 1 else values
     return said, arrays
-
-
-def through_vtk(file, kind):
-    """The file as VTK itself reads it; None where it is not installed."""
-    try:
-        from vtkmodules import vtkIOXML
-    except ImportError:
-        return None
-    reader = getattr(vtkIOXML, kind)()
-    reader.SetFileName(str(file))
-    reader.Update()
-    return reader.GetOutput()
 
 
 @unittest.skipIf(numpy is None, "python3-numpy is not installed")
@@ -178,9 +188,8 @@ class ParaView(Case):
                 self.assertEqual(ours.sum(), int(row["n_voxels"]))
                 self.assertAlmostEqual(volume[ours].sum() / float(row["volume_m3"]), 1, delta=0.03)
             self.assertTrue((arrays["confidence"] > 0).all() and (arrays["confidence"] <= 1).all())
-        grid = through_vtk(files[0], "vtkXMLUnstructuredGridReader")
-        if grid is not None:
-            self.assertEqual(grid.GetNumberOfCells(), len(vtk(files[0])[1]["types"]))
+        grid = through_vtk(files[0], "vtkIOXML", "vtkXMLUnstructuredGridReader")
+        self.assertEqual(grid.GetNumberOfCells(), len(vtk(files[0])[1]["types"]))
 
     def test_the_series_is_in_the_order_of_time(self):
         dest = self.fresh("export-vtu-series")
@@ -208,9 +217,8 @@ class ParaView(Case):
         self.assertAlmostEqual(float(numpy.nanmax(arrays["Sv"][ours])), float(row["sv_max_db"]), delta=0.5)
         depth = -(arrays["Points"][ours, 2] * arrays["confidence"][ours]).sum() / arrays["confidence"][ours].sum()
         self.assertAlmostEqual(depth / float(row["depth_m"]), 1, delta=0.1)
-        grid = through_vtk(file, "vtkXMLStructuredGridReader")
-        if grid is not None:
-            self.assertEqual(grid.GetNumberOfPoints(), len(arrays["Points"]))
+        grid = through_vtk(file, "vtkIOXML", "vtkXMLStructuredGridReader")
+        self.assertEqual(grid.GetNumberOfPoints(), len(arrays["Points"]))
 
 
 class Ices(Case):
@@ -335,6 +343,70 @@ class Echoview(Case):
                 self.assertEqual(status, "1")
                 iso = f"{date[:4]}-{date[4:6]}-{date[6:]}T{time[:2]}:{time[2:4]}:{time[4:6]}.{time[6:9]}Z"
                 self.assertAlmostEqual(float(depth), depths[iso], delta=0.05 * depths[iso])
+
+
+def work_voxels(file, first):
+    """(school, FILETIME, channel and sample from 0) of each voxel of a work file whose numbers count from `first`."""
+    root = xml.etree.ElementTree.parse(file).getroot()
+    assert root.tag == "schools"
+    for school in root.findall("schoolData"):
+        for ping in school.findall("schoolMask/pingMask"):
+            beams = ping.findall("beam")
+            assert len(beams) == int(ping.get("beamCount")) > 0
+            for beam in beams:
+                numbers = [int(n) for n in beam.get("range").split()]
+                assert len(numbers) % 2 == 0
+                for k in range(0, len(numbers), 2):
+                    begin = sum(numbers[:k + 1])
+                    assert first <= begin < begin + numbers[k + 1] <= int(beam.get("beamLength")) + first
+                    for sample in range(begin, begin + numbers[k + 1]):
+                        yield int(school.get("ObjectNumber")), int(ping.get("pingNtDate")), int(beam.get("channel")) - first, sample - first
+
+
+def product_voxels(file):
+    """The same of a product."""
+    with netCDF4.Dataset(file) as product:
+        mask = product["mask"]
+        times = [int(t) // 100 + 116444736 * 10**9 for t in product["pings/time_ns"][:]]
+        for school, ping, channel, begin, count in zip(*(mask[name][:].tolist() for name in (
+                "school_id", "ping_index", "channel", "first_sample", "sample_count"))):
+            for sample in range(begin, begin + count):
+                yield school, times[ping], channel, sample
+
+
+class Lsss(Case):
+    def test_work_files_hold_the_voxels_of_the_tables_and_products(self):
+        rejected = {(r["observation"], int(r["school_id"])) for r in sonarx.read_csv(OUT / "schools.csv") if r["status"] == "rejected"}
+        wanted = {}
+        for row in sonarx.read_csv(OUT / "school_pings.csv"):
+            key = row["observation"], int(row["school_id"])
+            if key not in rejected:
+                wanted[key] = wanted.get(key, 0) + int(row["n_voxels"])
+        for first, more in ((1, ()), (0, ("--count-from", "0"))):
+            dest = self.fresh(f"export-lsss-{first}")
+            self.sonarx("export", OUT, "--to", "lsss", "-o", dest, *more)
+            counted = {}
+            for file in sorted(dest.glob("*.work")):
+                voxels = list(work_voxels(file, first))
+                self.assertEqual(len(voxels), len(set(voxels)), "each once")
+                for school, *_ in voxels:
+                    counted[file.stem, school] = counted.get((file.stem, school), 0) + 1
+                if netCDF4 is not None:
+                    self.assertEqual(set(voxels), {v for v in product_voxels(OUT / "products" / f"{file.stem}.nc")
+                                                   if (file.stem, v[0]) not in rejected})
+            self.assertEqual(counted, wanted)
+
+    @unittest.skipIf(shutil.which("xmllint") is None, "xmllint is not installed")
+    def test_xmllint_reads_it(self):
+        dest = self.fresh("export-lsss-lint")
+        self.sonarx("export", OUT, "--to", "lsss", "-o", dest)
+        for file in dest.glob("*.work"):
+            done = subprocess.run(["xmllint", "--noout", file], capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_the_numbering_belongs_to_it(self):
+        self.one_line_error("export", OUT, "--to", "csv", "--count-from", "0", "-o", self.fresh("export-lsss-none"), code=2,
+                            names="--count-from: belongs to --to lsss")
 
 
 class Page(html.parser.HTMLParser):

@@ -44,11 +44,24 @@ TEST_F(Export, tables_maps_and_masks) {
   const auto csv = run("csv");
   ASSERT_TRUE(csv) << to_line(csv.error());
   EXPECT_EQ(read_csv_rows<SchoolPingRow>(csv->files.at(1))->size(), 4U);
-  for (const char* format : {"gpkg", "geojson", "netcdf-mask", "ply", "gltf", "vtu", "echoview"}) {
+  for (const char* format : {"gpkg", "geojson", "netcdf-mask", "ply", "gltf", "vtu", "echoview", "lsss"}) {
     const auto files = run(format);
     ASSERT_TRUE(files) << to_line(files.error());
     EXPECT_FALSE(fs::is_empty(folder_ / format)) << format;
   }
+}
+
+// The recipe may have moved the times of pings; other programs know those of the raw files.
+TEST_F(Export, lsss_has_the_times_of_the_datagrams) {
+  ObservationProduct p = example::empty("obs-0001", 5);
+  p.recipe_json = R"({"recipe_version":1,"navigation":{"time_offset_s":-2.5}})";
+  example::add_school(p, 1, 0, 3, example::block(1, 1, 2, 20, 8));
+  ASSERT_TRUE(write_product(p, folder_ / "out" / "products" / "obs-0001.nc"));
+  const auto written = run("lsss");
+  ASSERT_TRUE(written) << to_line(written.error());
+  const auto schools = read_lsss_work(folder_ / "lsss" / "obs-0001.work", LsssNumbering::from_one);
+  ASSERT_TRUE(schools) << to_line(schools.error());
+  EXPECT_EQ(schools->at(0).pings.at(0).time, example::kStart + 2'500'000'000);
 }
 
 TEST_F(Export, schools_have_the_numbers_of_the_tables) {
@@ -65,10 +78,8 @@ TEST_F(Export, refuses_in_one_line) {
   const auto unknown = run("shapefile");
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().code, ErrorCode::usage);
-  EXPECT_THAT(
-      to_line(unknown.error()),
-      HasSubstr(
-          "csv, netcdf-mask, gpkg, geojson, ply, gltf, vtu, vts, ices, echoview, sv, avoidance, seabed, raw-reduced"));
+  EXPECT_THAT(to_line(unknown.error()), HasSubstr("csv, netcdf-mask, gpkg, geojson, ply, gltf, vtu, vts, ices, "
+                                                  "echoview, lsss, sv, avoidance, seabed, raw-reduced"));
   EXPECT_EQ(run("raw-reduced").error().code, ErrorCode::usage);
   EXPECT_EQ(run("vts").error().code, ErrorCode::usage);
   EXPECT_THAT(to_line(run("ices").error()), HasSubstr("sonarx integrate"));
