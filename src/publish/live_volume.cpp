@@ -203,6 +203,7 @@ VolumeFigure LiveVolume::State::figure_of(const LiveVolumeInput& input) {
   figure.title_line = input.title_line;
   if (input.next) figure.mark = between_words(input);
   figure.refused = input.refused;
+  figure.currents = input.currents;
   figure.fitted = fitted_seabed(*input.staged);
   figure.fan = input.fan;
   figure.beam = input.beam;

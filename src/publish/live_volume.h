@@ -40,6 +40,7 @@ struct LiveVolumeInput {
   std::vector<std::string> names;                     ///< [mask] beside it in the picture; empty = none
   std::vector<std::pair<Rgba8, std::string>> legend;  ///< of the masks
   std::vector<RefusedMark> refused;
+  CurrentColumn currents;         ///< below the ship
   TrailSubject trails;            ///< of options.volume that are shown
   int fan = 0;                    ///< of the slice from above
   int beam = 0;                   ///< of the slice from the side

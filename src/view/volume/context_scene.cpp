@@ -139,6 +139,8 @@ ContextScene context_scene(const Sector& sector, const ContextParams& params, co
   if (seabed) add_seabed(scene, *seabed, params.transducer_depth_m, theme);
   add_slices(scene, sector, params, theme);
   add_drop_lines(scene, params, theme);
+  add_current_arrows(scene, current_arrows(sector, params.currents, params.heading_deg, params.transducer_depth_m),
+                     params.transducer_depth_m, theme);
   if (params.trails) scene.under = *params.trails;
   return scene;
 }

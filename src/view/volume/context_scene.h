@@ -15,6 +15,7 @@
 #include "view/free_place.h"
 #include "view/theme.h"
 #include "view/volume/camera.h"
+#include "view/volume/current_arrows.h"
 #include "view/volume/school_places.h"
 
 namespace sonar {
@@ -82,6 +83,7 @@ struct ContextParams {
   std::optional<int> side_beam;       ///< the same of the slice from the side
   std::optional<FittedSeabed> fitted_seabed;
   std::vector<SchoolPlace> schools;  ///< have drop lines and names; labels keep off them
+  CurrentColumn currents;            ///< arrows below the ship; none = nothing
   /// Tracks and trails (SchoolTrails), in the sonar frame; null = none. The same object = the same lines.
   std::shared_ptr<const std::vector<SceneLine>> trails;
   friend bool operator==(const ContextParams&, const ContextParams&) = default;
