@@ -36,6 +36,7 @@ struct VolumeFigure {
   bool schools_tracked = false;                            ///< some of `trails` may be schools'
   std::shared_ptr<const std::vector<SceneLine>> trails{};  ///< of ship and schools; null = none
   CurrentColumn currents{};                                ///< below the ship; none = no arrows
+  std::shared_ptr<const std::vector<int>> shadow_from{};   ///< as ContextParams has it
   std::optional<FittedSeabed> fitted{};                    ///< of this ping's echoes; drawn where `seabed` is not given
   int fan = 0;                                             ///< of the slice from above
   int beam = 0;                                            ///< of the slice from the side

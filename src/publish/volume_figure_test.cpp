@@ -150,6 +150,9 @@ TEST(VolumeFigure, TheLegendSaysWhichSeabedIsShown) {
   EXPECT_NE(words_of(schools_alone(13)).find("fuzzy area"), std::string::npos);
   options.volume.seabed = false;
   EXPECT_EQ(words_of(schools_alone(2)).find("seabed"), std::string::npos);
+  EXPECT_EQ(words_of(figure).find("shadow"), std::string::npos);
+  figure.shadow_from = std::make_shared<const std::vector<int>>(56, 20);
+  EXPECT_NE(words_of(figure).find("in the shadow of schools"), std::string::npos);
 }
 
 // A profile at the ship tells of 10 to 30 m, and recipes let it hold 20 m farther: depths of which nothing is told have no

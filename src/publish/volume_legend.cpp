@@ -34,6 +34,7 @@ void add_surroundings(std::vector<LegendRow>& rows, const VolumeFigure& figure, 
     rows.push_back({area, theme.land, "seabed, fitted to the ping's echoes"});
   }
   if (!options.volume.context) return;
+  if (figure.shadow_from) rows.push_back({whole_line, shadow_colour(theme), "in the shadow of schools"});
   const double heading_deg = figure.navigation.heading_deg;
   const auto turned = std::isnan(heading_deg) ? std::nullopt : std::optional(heading_deg);
   const std::string current = current_words(figure.sector(), figure.currents, turned);

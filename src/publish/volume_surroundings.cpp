@@ -90,6 +90,7 @@ ContextParams volume_surroundings(const VolumeFigure& figure, const PictureOptio
   }
   params.schools = school_places(figure, options.volume.drop_lines);
   params.currents = figure.currents;
+  params.shadow_from = figure.shadow_from;
   params.trails = figure.trails;
   return params;
 }

@@ -253,6 +253,7 @@ void add_context_labels(FrameDescription& frame, const Sector& sector, const Con
   ContextParams lines = params;
   lines.ship = lines.sea_surface = false;
   lines.fitted_seabed.reset();
+  lines.shadow_from.reset();  // so many that no label would have room
   ContextLabels labels(frame, camera, theme, opaque);
   for (const PixelRect& place : taken) labels.keep_off(place);
   const ContextScene drawn = context_scene(sector, lines, theme);
