@@ -11,8 +11,10 @@ namespace sonar {
 std::shared_ptr<const Refraction> rays_of(const SoundProfile& profile, std::span<const PingNavigation> pings,
                                           const RangeAxis& range, double sound_speed_mps) {
   if (profile.empty() || pings.empty() || range.count == 0) return nullptr;
-  return std::make_shared<const Refraction>(profile, pings.front().transducer_depth_m, sound_speed_mps,
-                                            range.range_m(range.count));
+  const double farthest_m = range.range_m(range.count);
+  // A damaged product may say anything.
+  if (!(sound_speed_mps > 0.0) || !(farthest_m > 0.0)) return nullptr;
+  return std::make_shared<const Refraction>(profile, pings.front().transducer_depth_m, sound_speed_mps, farthest_m);
 }
 
 Placement placement_under(const Recipe& recipe, const PingNavigation& ping,

@@ -31,6 +31,8 @@ class ProductPlacements {
   /// A recipe that cannot be read is the default.
   explicit ProductPlacements(const ObservationProduct& product);
   [[nodiscard]] Placement of(const PingNavigation& ping) const { return placement_under(recipe_, ping, rays_); }
+  /// Null where nothing bends.
+  [[nodiscard]] const std::shared_ptr<const Refraction>& rays() const { return rays_; }
 
  private:
   Recipe recipe_;
