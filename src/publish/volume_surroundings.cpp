@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/stages/current_column.h"
 #include "publish/volume_figure.h"
+#include "view/volume/earth_pose.h"
 
 namespace sonar {
 
@@ -23,6 +25,13 @@ std::optional<FittedSeabed> fitted_seabed(const StagedPing& staged) {
   const auto& found = staged.seabed;
   if (!found.found) return std::nullopt;
   return FittedSeabed{found.offset_m, found.slope_x, found.slope_y, found.min_x, found.max_x, found.min_y, found.max_y};
+}
+
+CurrentColumn volume_currents(const Recipe& recipe, const Sector& sector, const PingNavigation& navigation,
+                              const VolumeParams& params) {
+  if (!params.current_arrows || recipe.current_profiles.empty() || !on_earth(navigation)) return {};
+  const std::vector<double> depths_m = current_depths(sector, navigation.transducer_depth_m);
+  return {current_column(recipe, navigation, depths_m), fastest_current_mps(recipe.current_profiles)};
 }
 
 namespace {
@@ -80,6 +89,8 @@ ContextParams volume_surroundings(const VolumeFigure& figure, const PictureOptio
     params.side_beam = figure.beam;
   }
   params.schools = school_places(figure, options.volume.drop_lines);
+  params.currents = figure.currents;
+  params.shadow_from = figure.shadow_from;
   params.trails = figure.trails;
   return params;
 }

@@ -95,6 +95,9 @@ class LivePicture {
   [[nodiscard]] virtual bool refines() const { return false; }
 
   virtual void pointer(const PointerEvent& /*event*/) {}
+  /// Ends a drag that has done nothing yet; it will not, wherever the button is let go.
+  /// out  false = there is none
+  virtual bool cancel_drag() { return false; }
   /// Whether two fingers on a touch pad move what is shown now; where they do not, they turn the wheel.
   [[nodiscard]] virtual bool pans() const { return false; }
   /// A menu opens at a place: what lies there becomes what its acts are about.

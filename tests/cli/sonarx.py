@@ -30,7 +30,9 @@ SCHOOL_PINGS = (
     "speed_smoothed_mps,speed_smoothed_se_mps,course_smoothed_deg,vertical_speed_smoothed_mps,"
     "speed_water_smoothed_mps,course_water_smoothed_deg,relative_bearing_deg,ship_speed_mps,course_away_deg,"
     "speed_away_mps,speed_away_se_mps,speed_away_water_mps,time_to_cpa_s,cpa_m,wake_distance_m,depth_error_m,"
-    "extinction_loss_db,extinction_share,extinction_share_low,extinction_share_high,extinction_corrected").split(",")
+    "extinction_loss_db,extinction_share,extinction_share_low,extinction_share_high,extinction_corrected,"
+    "course_smoothed_se_deg,vertical_speed_smoothed_se_mps,speed_water_smoothed_se_mps,course_water_smoothed_se_deg,"
+    "course_away_se_deg,speed_away_water_se_mps,time_to_cpa_se_s,cpa_se_m").split(",")
 SCHOOLS = (
     "observation,school_id,continues,first_time_utc,last_time_utc,n_pings,n_pings_whole,latitude,longitude,depth_m,"
     "volume_m3,volume_corrected_m3,length_m,width_m,height_m,sv_mean_db,sv_corrected_db,backscatter_m2,speed_mps,"

@@ -76,6 +76,7 @@ void add_measuring(AppModel& app) {
 /// The drag, else what runs or waits for a click, else the selection: one key must not be two actions'.
 void let_go(AppModel& app) {
   if (app.brush_tool->drawing()) return app.brush_tool->cancel();
+  if (std::ranges::any_of(app.pictures, [](const PictureDock& dock) { return dock.picture->cancel_drag(); })) return;
   if (app.workspace.tool() == ToolName::section) return app.workspace.tool.set(ToolName::seed);
   const bool measuring = app.workspace.tool() == ToolName::measure && app.workspace.measurement();
   if (app.measure_tool->drawing() || measuring) return app.measure_tool->cancel();

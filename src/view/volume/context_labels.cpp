@@ -205,6 +205,15 @@ void label_slices(ContextLabels& labels, const Sector& sector, const ContextPara
   }
 }
 
+/// Their depths, beside where they begin.
+void label_currents(ContextLabels& labels, const std::vector<CurrentArrow>& arrows, double far_m) {
+  for (const CurrentArrow& arrow : arrows) {
+    const Point<Sonar> back = (arrow.from - arrow.to) * (0.05 * far_m / norm(arrow.to - arrow.from));
+    labels.add({arrow.from, arrow.from + Point<Sonar>{0.0, 0.0, 0.02 * far_m}, arrow.from + back},
+               fmt::format("{:g} m", arrow.depth_m));
+  }
+}
+
 }  // namespace
 
 std::optional<PixelRect> school_box(const SchoolPlace& school, const CameraBasis& camera) {
@@ -244,6 +253,7 @@ void add_context_labels(FrameDescription& frame, const Sector& sector, const Con
   ContextParams lines = params;
   lines.ship = lines.sea_surface = false;
   lines.fitted_seabed.reset();
+  lines.shadow_from.reset();  // so many that no label would have room
   ContextLabels labels(frame, camera, theme, opaque);
   for (const PixelRect& place : taken) labels.keep_off(place);
   const ContextScene drawn = context_scene(sector, lines, theme);
@@ -256,6 +266,8 @@ void add_context_labels(FrameDescription& frame, const Sector& sector, const Con
   if (params.depth_axis) label_depths(labels, depth_axis(sector, params), far_range_m(sector), z);
   if (params.range_rings) label_bearings(labels, grid, params, z);
   label_slices(labels, sector, params);
+  label_currents(labels, current_arrows(sector, params.currents, params.heading_deg, params.transducer_depth_m),
+                 far_range_m(sector));
 }
 
 }  // namespace sonar

@@ -15,6 +15,7 @@
 #include "view/free_place.h"
 #include "view/theme.h"
 #include "view/volume/camera.h"
+#include "view/volume/current_arrows.h"
 #include "view/volume/school_places.h"
 
 namespace sonar {
@@ -82,10 +83,17 @@ struct ContextParams {
   std::optional<int> side_beam;       ///< the same of the slice from the side
   std::optional<FittedSeabed> fitted_seabed;
   std::vector<SchoolPlace> schools;  ///< have drop lines and names; labels keep off them
+  CurrentColumn currents;            ///< arrows below the ship; none = nothing
+  /// [row] sample from which a beam lies in schools' shadow, its record's end = nowhere; null = not shown. The same object =
+  /// the same samples.
+  std::shared_ptr<const std::vector<int>> shadow_from;
   /// Tracks and trails (SchoolTrails), in the sonar frame; null = none. The same object = the same lines.
   std::shared_ptr<const std::vector<SceneLine>> trails;
   friend bool operator==(const ContextParams&, const ContextParams&) = default;
 };
+
+/// Of the lines where schools' shadow lies.
+[[nodiscard]] Rgba8 shadow_colour(const Theme& theme);
 
 [[nodiscard]] ContextScene context_scene(const Sector& sector, const ContextParams& params, const Theme& theme,
                                          const std::optional<SeabedPatch>& seabed = std::nullopt);
