@@ -159,7 +159,6 @@ TEST(VolumeFigure, TheLegendSaysWhichSeabedIsShown) {
 // arrow. Between two profiles it is linear in time, as it is for schools.
 TEST(VolumeFigure, ArrowsOfTheCurrentStandWhereItIsTold) {
   Recipe recipe;
-  recipe.currents.max_depth_gap_m = 20.0;
   PingNavigation ship;
   ship.time = 100 * kSecondNs;
   ship.transducer = {60.0, 5.0};
