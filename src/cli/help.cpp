@@ -56,6 +56,10 @@ constexpr std::array kExamples = {
              "  sonarx biomass OUT --lengths lengths.csv --ts herring-side --weight-a 0.0048 --weight-b 3.2\n"},
     Examples{"propagate",
              "  sonarx propagate SURVEY --observation obs-0001 --seed 6,6,7,442 --tolerance-db 10 -o ONE\n"},
+    Examples{"import",
+             "  sonarx import SURVEY REGIONS/*.evr -o OUT/session-2.jsonl --operator NAME\n"
+             "  sonarx import SURVEY drawn.evr --fan 12 --beams 3:9 -o drawn.jsonl\n"
+             "  sonarx run SURVEY -o NEW --session drawn.jsonl\n"},
     Examples{"export",
              "  sonarx export OUT --to csv -o TABLES\n  sonarx export OUT --to geojson -o MAP\n"
              "  sonarx export OUT --to raw-reduced --survey SURVEY -o SMALL\n"
