@@ -57,9 +57,9 @@ constexpr std::array kExamples = {
     Examples{"propagate",
              "  sonarx propagate SURVEY --observation obs-0001 --seed 6,6,7,442 --tolerance-db 10 -o ONE\n"},
     Examples{"import",
-             "  sonarx import SURVEY REGIONS/*.evr -o OUT/session-2.jsonl --operator NAME\n"
-             "  sonarx import SURVEY drawn.evr --fan 12 --beams 3:9 -o drawn.jsonl\n"
-             "  sonarx run SURVEY -o NEW --session drawn.jsonl\n"},
+             "  sonarx export OUT --to echoview -o REGIONS     to be looked at and changed in Echoview\n"
+             "  sonarx import SURVEY REGIONS/*.evr -o regions.jsonl --operator NAME\n"
+             "  sonarx run SURVEY -o NEW --session regions.jsonl\n"},
     Examples{"export",
              "  sonarx export OUT --to csv -o TABLES\n  sonarx export OUT --to geojson -o MAP\n"
              "  sonarx export OUT --to raw-reduced --survey SURVEY -o SMALL\n"

@@ -110,10 +110,11 @@ void add_import(CLI::App& app, VerbRunner& run) {
       "import", "Write a journal of what files of other programs say of a survey: schools, marks, bad pings");
   verb->add_option("SURVEY", arguments->survey, "Folder of raw files, or a raw file")->required();
   verb->add_option("FILE", arguments->files, kinds)->required()->check(named_file());
-  verb->add_option("-o,--out", arguments->out,
-                   "Journal to write, for sonarx run --session, or as session-2.jsonl of a work folder for the window")
+  verb->add_option(
+          "-o,--out", arguments->out,
+          "Journal to write (.jsonl), for run --session; among the journals of a survey the window reads it too")
       ->required()
-      ->check(named_path("SESSION.jsonl"));
+      ->check(named_file());
   verb->add_option("--observation", arguments->observation,
                    "Only this observation, e.g. obs-0002; default: all of the sounder that comes first")
       ->check(some_name());

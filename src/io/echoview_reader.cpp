@@ -319,7 +319,7 @@ Result<EchoviewCells> cells_of(const EchoviewRegion& region, const std::string& 
       return fail(ErrorCode::format, fmt::format("line {}: {}", line, read.error().text), {file});
     }
     if (*read || region.notes[i].empty()) continue;
-    cells.words += (cells.words.empty() ? "" : "\n") + region.notes[i];
+    cells.words += (cells.words.empty() ? "" : "; ") + region.notes[i];
   }
   return cells;
 }

@@ -67,7 +67,7 @@ struct EchoviewCells {
   std::optional<int> fan;
   std::optional<Beams> beams;
   std::vector<InPing> pings;  ///< rising time; empty = all cells of the polygon
-  std::string words;          ///< the other notes
+  std::string words;          ///< the other notes as one line
 };
 /// Notes "fan 3", "beams 3 8" and "cells 20261121 1957265000 BEAM FIRST COUNT BEAM FIRST COUNT ..." of a ping, as evr_text()
 /// writes them.

@@ -167,6 +167,19 @@ TEST(EchoviewReader, ALineIsReadAndItsDamageTold) {
   }
 }
 
+// The last region's name is an empty line: a file that is cut before it, at whatever byte, is refused.
+TEST(EchoviewReader, ACutFileIsRefused) {
+  const std::string regions = kTwoRegions;
+  for (std::size_t size = 0; size + 2 <= regions.size(); ++size) {
+    EXPECT_FALSE(parse_evr(regions.substr(0, size), "a.evr").has_value()) << size;
+  }
+  const std::string line = "EVBD 3 13.0\r\n2\r\n20261121 1957265000 51.25 3\r\n20261121 1957275000 5 2";
+  for (std::size_t size = 0; size < line.size(); ++size) {
+    EXPECT_FALSE(parse_evl(line.substr(0, size), "a.evl").has_value()) << size;
+  }
+  EXPECT_TRUE(parse_evr(regions, "").has_value() && parse_evl(line, "").has_value());
+}
+
 // A hexagon without its right notch: at 0 and 1 s one stretch, at 2 s two, at 3 s (its end) where it closes.
 TEST(EchoviewReader, AConcavePolygonHasTwoStretchesAtATime) {
   const std::vector<EchoviewCorner> corners{{0, 10.0},         {3 * kSecondNs, 10.0}, {3 * kSecondNs, 14.0},
@@ -213,7 +226,7 @@ TEST(EchoviewReader, NotesOfAHumanAreWordsAndWrongOnesAreTold) {
   region.notes = {"fans of herring", "cells look empty", "fan 3"};
   const auto cells = cells_of(region, "a.evr");
   ASSERT_TRUE(cells.has_value());
-  EXPECT_EQ(cells->words, "fans of herring\ncells look empty");
+  EXPECT_EQ(cells->words, "fans of herring; cells look empty");
   EXPECT_EQ(cells->fan, 3);
   for (const char* note :
        {"fan 3 4", "beams 5 3", "beams 5", "cells 20261121 1957265000 1 2", "cells 20261121 1957265000 1 2 0",

@@ -196,7 +196,7 @@ class Regions {
     }
     if (std::ranges::find(kNoClass, region.region_class) == kNoClass.end()) school.species = region.region_class;
     // Of a school in several fans each may say the same.
-    if (school.comment.find(words) == std::string::npos) school.comment += (school.comment.empty() ? "" : "\n") + words;
+    if (school.comment.find(words) == std::string::npos) school.comment += (school.comment.empty() ? "" : "; ") + words;
   }
 
   void add_mark(const EchoviewRegion& region) {

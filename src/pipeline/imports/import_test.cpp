@@ -191,8 +191,8 @@ bool inside(const std::vector<std::pair<double, double>>& polygon, double x, dou
 TEST_F(Import, APolygonHoldsTheSamplesWhoseMiddlesLieInIt) {
   place_.fan = 2;
   place_.beams = BeamSpan{1, 4};
-  // Drawn by hand, with a bay: between pings and samples.
-  const std::vector<std::pair<double, double>> polygon{{1.0, 12.0}, {7.0, 9.1},   {15.5, 14.2},
+  // Drawn by hand, with a bay; no sample lies nearer than 2 cm to a side.
+  const std::vector<std::pair<double, double>> polygon{{1.0, 12.0}, {7.0, 9.1},   {15.5, 14.25},
                                                        {9.0, 21.3}, {11.3, 30.4}, {3.0, 27.7}};
   std::vector<Corner> corners;
   for (const auto& [seconds, depth_m] : polygon) {

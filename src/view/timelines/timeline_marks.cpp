@@ -74,8 +74,6 @@ double height_at(std::span<const TimelinePoint> line, TimeNs time) {
 
 }  // namespace
 
-std::vector<double> line_dashes(const Theme& theme) { return {6.0 * theme.line_px, 3.0 * theme.line_px}; }
-
 void add_line(FrameDescription& frame, const Strip& s, const PlotFrame& plot, const Theme& theme) {
   if (s.observation->line.empty()) return;
   // Pings that share a pixel make one point: what is drawn grows with the picture, not with the number of pings.
@@ -98,8 +96,7 @@ void add_line(FrameDescription& frame, const Strip& s, const PlotFrame& plot, co
   for (const bool halo : {true, false}) {
     PathItem item;
     item.parts = parts;
-    item.stroke = {halo ? theme.halo : theme.accent, (halo ? 3.6 : 2.0) * theme.line_px,
-                   halo ? std::vector<double>{} : line_dashes(theme)};
+    item.stroke = {halo ? theme.halo : theme.accent, (halo ? 3.6 : 2.0) * theme.line_px, {}};
     frame.items.emplace_back(std::move(item));
   }
 }

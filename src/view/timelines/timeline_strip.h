@@ -83,8 +83,6 @@ void add_refused(FrameDescription& frame, const Strip& strip, const PlotFrame& p
                                                  const Theme& theme);
 /// The line of an observation.
 void add_line(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const Theme& theme);
-/// Dashes that tell it from the edges of schools, pixels.
-[[nodiscard]] std::vector<double> line_dashes(const Theme& theme);
 /// Events: a line with a flag, and its text where there is room.
 void add_marks(FrameDescription& frame, std::span<const Strip> strips, const PlotFrame& plot, const Theme& theme);
 /// Observations named above the plot.
