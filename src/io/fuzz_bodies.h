@@ -19,6 +19,7 @@
 #include "io/child_process.h"
 #include "io/csv.h"
 #include "io/csv_table.h"
+#include "io/echoview_reader.h"
 #include "io/index_cache.h"
 #include "io/lsss_work.h"
 #include "io/nav_series.h"
@@ -189,6 +190,36 @@ inline void index_cache(std::span<const std::byte> bytes) {
   wire::put(sealed, sum.low);
   sealed.insert(sealed.end(), bytes.begin(), bytes.end());
   take(sealed);
+}
+
+/// Regions that are taken have corners, and lie somewhere at the time of each, from above to below; notes tell cells that exist.
+inline void evr(std::string_view text) {
+  const auto regions = parse_evr(text, "fuzz");
+  if (!regions) return;
+  for (const EchoviewRegion& region : *regions) {
+    SONAR_CHECK(!region.corners.empty());
+    for (const EchoviewCorner& corner : region.corners) {
+      SONAR_CHECK(std::isfinite(corner.depth_m));
+      for (const DepthSpan& span : depths_at(region.corners, corner.time)) SONAR_CHECK(span.first_m <= span.last_m);
+    }
+    const auto cells = cells_of(region, "fuzz");
+    if (!cells) continue;
+    for (const EchoviewCells::InPing& ping : cells->pings) {
+      for (const EchoviewCells::InBeam& run : ping.runs) {
+        SONAR_CHECK(run.beam >= 0 && run.first_sample >= 0 && run.end() > run.first_sample);
+      }
+    }
+  }
+}
+
+/// A line that is taken goes forward in time.
+inline void evl(std::string_view text) {
+  const auto points = parse_evl(text, "fuzz");
+  if (!points) return;
+  for (std::size_t i = 0; i < points->size(); ++i) {
+    SONAR_CHECK(std::isfinite((*points)[i].depth_m));
+    SONAR_CHECK(i == 0 || (*points)[i].time >= (*points)[i - 1].time);
+  }
 }
 
 /// Whatever a reading child answers is something, within what was asked for, or nothing.

@@ -28,6 +28,14 @@ TEST(FuzzCorpus, Csv) {
   test::replay("csv", [](const std::string& text) { fuzz::csv(text); });
 }
 
+TEST(FuzzCorpus, Evr) {
+  test::replay("evr", [](const std::string& text) { fuzz::evr(text); });
+}
+
+TEST(FuzzCorpus, Evl) {
+  test::replay("evl", [](const std::string& text) { fuzz::evl(text); });
+}
+
 TEST(FuzzCorpus, IndexCache) {
   test::replay("index_cache", [](const std::string& bytes) { fuzz::index_cache(std::as_bytes(std::span(bytes))); });
 }

@@ -47,6 +47,7 @@ struct PictureOptions {
   PictureParams kind;                           ///< what is asked for one kind alone
   std::filesystem::path depth_raster;           ///< seabed of volumes and maps; empty = none
   std::filesystem::path transects;              ///< table of them for the survey map; empty = none
+  std::filesystem::path line;                   ///< Echoview's (.evl), over an echogram against depth; empty = none
 };
 
 /// Refuses what no picture can be made of, before anything is read.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <string>
@@ -92,6 +93,20 @@ TEST_F(Pictures, TheSameTwiceIsTheSame) {
     EXPECT_EQ(texts(*first), texts(*second));
     EXPECT_EQ(first->items.size(), second->items.size());
   }
+}
+
+TEST_F(Pictures, AnEchogramAgainstDepthTakesALineOfEchoview) {
+  const fs::path file = test::scratch_path("seabed.evl");
+  std::ofstream(file) << "EVBD 3 13.0\n2\n20200102 0800000000 20 3\n20200103 0800000000 40 3\n";
+  options_.line = file;
+  options_.kind.echogram.depth = true;
+  auto frame = picture(PictureKind::echogram);
+  ASSERT_TRUE(frame) << to_line(frame.error());
+  EXPECT_THAT(texts(*frame), testing::Contains(file.filename().string()));
+  std::ofstream(file) << "EVBD 3 13.0\n2\n20200102 0800000000 deep 3\n";
+  refused(PictureKind::echogram, "line 3: expected CCYYMMDD", [](PictureOptions&) {});
+  fs::remove(file);
+  refused(PictureKind::echogram, file.string(), [](PictureOptions&) {});
 }
 
 TEST_F(Pictures, BadChoicesAreRefusedInOneLine) {

@@ -407,6 +407,80 @@ class Lsss(Case):
     def test_the_numbering_belongs_to_it(self):
         self.one_line_error("export", OUT, "--to", "csv", "--count-from", "0", "-o", self.fresh("export-lsss-none"), code=2,
                             names="--count-from: belongs to --to lsss")
+class EchoviewBack(Case):
+    """A journal of what was exported, and pictures of lines."""
+    def test_regions_come_back_as_the_schools_that_they_were(self):
+        folder = self.fresh("import-echoview")
+        self.sonarx("export", OUT, "--to", "echoview", "-o", folder)
+        journal, recipe = folder / "regions.jsonl", folder / "R.json"
+        files = sorted(folder.glob("obs-0001-fan-*.evr"))
+        schools = [r for r in sonarx.read_csv(OUT / "schools.csv") if (r["observation"], r["status"]) == ("obs-0001", "unreviewed")]
+        rows = [r for r in sonarx.read_csv(OUT / "school_pings.csv")
+                if (r["observation"], r["school_id"]) in {(s["observation"], s["school_id"]) for s in schools}]
+        before = sonarx.contents(SURVEY)
+        said = self.sonarx("import", SURVEY, *files, "-o", journal, "--operator", "somebody")
+        self.assertEqual(sonarx.contents(SURVEY), before)
+        voxels = sum(int(r["n_voxels"]) for r in rows)
+        self.assertRegex(said, rf": {len(schools)} schools?, {voxels} voxels, 0 marks, 0 bad intervals\n$")
+        # What the notes tell, read by rules of this test: every cell stands in the journal.
+        cells = {}
+        for file in files:
+            for line in file.read_bytes().decode("utf-8-sig").split("\r\n"):
+                if line.startswith("cells "):
+                    time, *numbers = line.split()[2:]
+                    cells[time[:9]] = cells.get(time[:9], 0) + sum(int(n) for n in numbers[2::3])
+        lines = [json.loads(line) for line in journal.read_text().splitlines()[1:]]
+        brushed = sum(count for line in lines if line["cmd"] == "brush" for _, _, count in line["args"]["runs"])
+        self.assertEqual((sum(cells.values()), brushed), (voxels, voxels))
+        self.assertEqual({line["operator"] for line in lines}, {"somebody"})
+        recipe.write_text(self.sonarx("recipe", "--preset", "default").replace('"automatic": true', '"automatic": false'))
+        self.sonarx("run", SURVEY, "-o", folder / "out", "--session", journal, "--recipe", recipe, "--only", "obs-0001")
+        again = sonarx.read_csv(folder / "out" / "school_pings.csv")
+        same = ("ping_index", "n_voxels", "n_beams", "n_fans", "range_m")
+        self.assertEqual(sorted([r[c] for c in same[:4]] for r in again), sorted([r[c] for c in same[:4]] for r in rows))
+        self.one_line_error("import", SURVEY, *files, "-o", journal, code=2, names="is there already")
+
+    def test_marks_and_bad_pings_and_what_is_left_out(self):
+        folder = self.fresh("import-marks")
+        first = min(r["time_utc"] for r in sonarx.read_csv(OUT / "school_pings.csv") if r["observation"] == "obs-0001")
+        time = f"{first[:4]}{first[5:7]}{first[8:10]} {first[11:13]}{first[14:16]}{first[17:19]}{first[20:23]}0"
+        late = "20991231 2359590000"
+
+        def regions(*corners_and_types):
+            text = f"\ufeffEVRG 7 13.0\r\n{len(corners_and_types)}\r\n"
+            for name, corners, kind in corners_and_types:
+                text += f"\r\n13 {len(corners)} 1 0 6 -1 0\r\n0\r\n0\r\nherring\r\n{' '.join(corners)} {kind}\r\n{name}\r\n"
+            return text.encode()
+        evr = folder / "drawn.evr"
+        evr.write_bytes(regions(("haul 12", [f"{time} 10"], 2), ("whole", [f"{time} -9999.99", f"{time} 9999.99"], 0),
+                                ("part", [f"{time} 30", f"{time} 40"], 0), ("late", [f"{late} 30"], 2)))
+        code, said, told = sonarx.run("import", SURVEY, evr, "-o", folder / "a.jsonl")
+        self.assertEqual(code, 0, told)
+        self.assertIn("0 schools, 0 voxels, 1 mark, 1 bad interval", said)
+        self.assertEqual([re.sub(r"^note import-left-out: .*region (\w+): .*", r"\1", line) for line in told.splitlines()],
+                         ["part", "late"])
+        self.assertEqual([json.loads(line)["cmd"] for line in (folder / "a.jsonl").read_text().splitlines()[1:]], ["event", "bad_ping"])
+        evr.write_bytes(regions(("school", [f"{time} 30", f"{time} 40"], 1)))
+        self.one_line_error("import", SURVEY, evr, "-o", folder / "b.jsonl", code=2, names="its notes name no fan")
+        self.one_line_error("import", SURVEY, evr, "-o", SURVEY / "b.jsonl", "--fan", "3", code=2, names="raw files")
+        evr.write_bytes(regions(("late", [f"{late} 30"], 2)).replace(b"\r\n1\r\n", b"\r\n7\r\n", 1))
+        self.one_line_error("import", SURVEY, evr, "-o", folder / "b.jsonl", code=1, names=f"{evr}: line 10: the file ends; expected a region")
+        evr.write_bytes(regions(("late", [f"{late} 30"], 2)))
+        code, said, told = sonarx.run("import", SURVEY, evr, "-o", folder / "b.jsonl", "-q")
+        self.assertEqual((code, said, len(told.splitlines())), (1, "", 1), told)
+        self.assertFalse((folder / "b.jsonl").exists())
+
+    def test_a_line_is_drawn_over_depth(self):
+        folder = self.fresh("line-of-echoview")
+        line = folder / "bottom.evl"
+        line.write_text("EVBD 3 13.0\n2\n20200101 0000000000 50 3\n20210101 0000000000 150 3\n")
+        self.sonarx("render", "echogram", OUT, "--depth", "--line", line, "-o", folder / "line.svg")
+        self.sonarx("render", "echogram", OUT, "--depth", "-o", folder / "none.svg")
+        self.assertGreater((folder / "line.svg").stat().st_size, (folder / "none.svg").stat().st_size)
+        self.one_line_error("render", "echogram", OUT, "--line", line, "-o", folder / "x.png", code=2, names="--depth")
+        line.write_text("EVBD 3 13.0\n2\n20200101 0000000000 deep 3\n")
+        self.one_line_error("render", "echogram", OUT, "--depth", "--line", line, "-o", folder / "x.png", code=1,
+                            names=f"{line}: line 3: expected")
 
 
 class Page(html.parser.HTMLParser):

@@ -14,7 +14,7 @@ WORK = Path(os.environ.get("SONAR_WORK", PROJECT / "build" / "tests-cli")).resol
 SURVEY, OUT = WORK / "survey", WORK / "out"
 TRUTH = SURVEY / "truth"
 
-VERBS = ["info", "simulate", "calibrate", "run", "plan", "follow", "merge", "submit", "status", "check", "integrate", "biomass", "propagate", "export", "score", "agree", "compare", "recipe", "render"]
+VERBS = ["info", "simulate", "calibrate", "run", "plan", "follow", "merge", "submit", "status", "check", "integrate", "biomass", "propagate", "import", "export", "score", "agree", "compare", "recipe", "render"]
 SCHOOL_PINGS = (
     "observation,school_id,ping_index,time_utc,latitude,longitude,depth_m,range_m,bearing_deg,n_voxels,n_beams,n_fans,"
     "volume_m3,length_m,width_m,height_m,axis_deg,depth_min_m,depth_max_m,sv_mean_db,sv_p95_db,sv_max_db,backscatter_m2,"

@@ -349,6 +349,7 @@ Result<FrameDescription> timeline(std::span<const TimelineObservation> observati
     if (style.schools && !style.outlined) add_tracks(frame, s, plot, style, theme, numbers);
     if (style.schools && style.outlined) add_outlines(frame, s, plot, style, theme, numbers);
   }
+  for (const Strip& s : laid->strips) add_line(frame, s, plot, theme);
   for (const Strip& s : laid->strips) add_refused(frame, s, plot, theme);
   add_track_numbers(frame, numbers, plot, theme);
   add_marks(frame, laid->strips, plot, theme);
