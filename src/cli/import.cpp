@@ -31,6 +31,7 @@ struct ImportArguments {
   std::string observation;
   std::optional<int> fan;
   std::string beams;
+  int count_from = 1;
   std::string recipe;
   std::string operator_name;
   std::string out;
@@ -74,6 +75,7 @@ Result<ImportedJournal> imported_journal(const ImportArguments& arguments, Work&
   if (!place) return pass_on(place);
   place->fan = arguments.fan;
   place->beams = *beams;
+  place->lsss = arguments.count_from == 0 ? LsssNumbering::from_zero : LsssNumbering::from_one;
   Imported imported;
   for (const std::string& file : arguments.files) {
     if (auto read = import_file(file, *place, imported); !read) return pass_on(read);
@@ -121,6 +123,9 @@ void add_import(CLI::App& app, VerbRunner& run) {
   verb->add_option("--fan", arguments->fan, "Fan from 0, the deepest, of regions whose notes do not name one")
       ->check(whole_within(0, 100000));
   verb->add_option("--beams", arguments->beams, "Beams from 0 of the same; default: all of the fan")->type_name("A:B");
+  verb->add_option("--count-from", arguments->count_from, ".work: number of the first channel and sample, 1 or 0")
+      ->check(whole_within(0, 1))
+      ->capture_default_str();
   verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)")->check(named_file());
   verb->add_option("--operator", arguments->operator_name, "Who imports, for the journal")->type_name("NAME");
   verb->add_option("-j,--jobs", arguments->jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));

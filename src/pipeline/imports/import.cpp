@@ -11,6 +11,7 @@
 #include "io/recordings.h"
 #include "pipeline/commands/state.h"
 #include "pipeline/imports/import_echoview.h"
+#include "pipeline/imports/import_lsss.h"
 #include "pipeline/stages/engine.h"
 
 namespace sonar {
@@ -18,6 +19,7 @@ namespace {
 
 constexpr std::array kFormats{
     ImportFormat{".evr", "regions of Echoview", import_evr},
+    ImportFormat{".work", "school masks of LSSS", import_lsss},
 };
 
 /// A journal that grows.

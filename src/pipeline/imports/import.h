@@ -13,6 +13,7 @@
 
 #include "base/result.h"
 #include "base/work.h"
+#include "io/lsss_work.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/journal/journal.h"
 #include "pipeline/journal/manual.h"
@@ -32,9 +33,10 @@ struct BeamSpan {
 /// Where what is read belongs, and what a file does not say itself.
 struct ImportPlace {
   const SurveyFiles* survey = nullptr;
-  std::vector<std::size_t> observations;  ///< in survey->observations, each with a grid
-  std::optional<int> fan;                 ///< of regions that do not name one
-  std::optional<BeamSpan> beams;          ///< the same; empty = all of the fan
+  std::vector<std::size_t> observations;         ///< in survey->observations, each with a grid
+  std::optional<int> fan;                        ///< of regions that do not name one
+  std::optional<BeamSpan> beams;                 ///< the same; empty = all of the fan
+  LsssNumbering lsss = LsssNumbering::from_one;  ///< of masks of LSSS
 };
 /// observation  its name; empty = all of the sounder that comes first in the survey and has a grid
 /// errors       usage: there is none of that name, or none with a grid

@@ -14,9 +14,11 @@
 #include <vector>
 
 #include "io/echoview_text.h"
+#include "io/lsss_work.h"
 #include "pipeline/commands/state.h"
 #include "pipeline/commands/test_context.h"
 #include "pipeline/imports/import_echoview.h"
+#include "pipeline/imports/import_lsss.h"
 
 namespace sonar {
 namespace {
@@ -175,6 +177,36 @@ TEST_F(Import, WhatWasExportedComesBackVoxelByVoxel) {
   }
   EXPECT_THAT(all.left_out, IsEmpty());
   EXPECT_THAT(state.notes, IsEmpty());
+}
+
+// In both numberings, and without what the recipe added to the times; a ping that the survey has not is told.
+TEST_F(Import, MasksOfLsssComeBackVoxelByVoxel) {
+  ObservationProduct product = ragged(sea_.grid, sea_.sector.range());
+  product.grid->sample_count.assign(kFans, kSamples);
+  product.schools[1].species = "12";
+  product.pings.emplace_back().time = ping_time(kPings) + kOffset + 60 * kSecondNs;
+  product.masks.push_back({5, kPings, product.masks.back().mask});
+  for (const LsssNumbering numbering : {LsssNumbering::from_one, LsssNumbering::from_zero}) {
+    place_.lsss = numbering;
+    Imported imported;
+    const auto done = import_lsss(lsss_work_text(product, kOffset, numbering), "a.work", place_, imported);
+    ASSERT_TRUE(done.has_value()) << to_line(done.error());
+    EXPECT_THAT(imported.left_out, ElementsAre("a.work: school 2: 1 ping that the survey does not have"));
+    const JournalState state = carried_out(imported);
+    ASSERT_EQ(state.schools.size(), 2U);
+    EXPECT_THAT(state.notes, IsEmpty());
+    for (const auto& school : state.schools) {
+      const bool second = school->masks.decided.species == "12";
+      Voxels expected;
+      for (const SchoolMask& mask : product.masks) {
+        if (mask.school_id != (second ? 5 : 3) || mask.ping_index >= kPings) continue;
+        SchoolMasks one;
+        one.pings.push_back({mask.ping_index, mask.mask});
+        expected.merge(voxels_of(one));
+      }
+      EXPECT_EQ(voxels_of(school->masks), expected);
+    }
+  }
 }
 
 /// Whether a place lies in a polygon, by the angle that it is seen under: all round, or not at all.
