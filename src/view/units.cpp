@@ -38,15 +38,14 @@ std::string quantity_text(double si, int decimals, const Unit& unit) {
   return fmt::format("{:.{}f} {}", unit.of(si), decimals, unit.name);
 }
 
-std::string round_text(double si, const Unit& unit) {
-  double value = unit.of(si);
-  if (unit.si != 1.0 && value != 0.0) {
-    // 5 m is 16.4 ft, not 16.4042 ft; whole digits stay.
-    const double fine = std::pow(10.0, std::max(0.0, 2.0 - std::floor(std::log10(std::abs(value)))));
-    value = std::round(value * fine) / fine;
-  }
-  return fmt::format("{:g} {}", value, unit.name);
+double rounded(double si, const Unit& unit) {
+  const double value = unit.of(si);
+  if (unit.si == 1.0 || value == 0.0) return value;
+  const double fine = std::pow(10.0, std::max(0.0, 2.0 - std::floor(std::log10(std::abs(value)))));
+  return std::round(value * fine) / fine;
 }
+
+std::string round_text(double si, const Unit& unit) { return fmt::format("{:g} {}", rounded(si, unit), unit.name); }
 
 std::string with_unit(std::string_view what, const Unit& unit) { return fmt::format("{} ({})", what, unit.name); }
 
@@ -61,7 +60,8 @@ double round_below(double most, const Unit& unit) {
 Unit shown_unit(std::string_view column_unit, const Units& units) {
   if (column_unit == "m") return units.length();
   const bool knots = column_unit == "kn";
-  if (!knots && column_unit != "m/s" && column_unit != "m s-1") return {1.0, column_unit};
+  if (!knots && column_unit != "m/s" && column_unit != "m s-1" && column_unit != "m s\u207B\u00B9")
+    return {1.0, column_unit};
   const Unit speed = knots ? units.ship_speed() : units.speed();
   const double own_mps = knots ? kKnot_mps : 1.0;
   return speed.si == own_mps ? Unit{1.0, column_unit} : Unit{speed.si / own_mps, speed.name};

@@ -9,11 +9,11 @@
 namespace sonar {
 
 enum class LengthUnit : std::uint8_t { metres, feet, fathoms };
-inline constexpr std::array<std::string_view, 3> kLengthUnitNames{"m", "feet", "fathoms"};
+inline constexpr std::array<std::string_view, 3> kLengthUnitNames{"metres", "feet", "fathoms"};
 
 /// usual: m/s, and knots where sailors read them (a ship's speed, the list of schools).
 enum class SpeedUnit : std::uint8_t { usual, metres_per_second, knots };
-inline constexpr std::array<std::string_view, 3> kSpeedUnitNames{"usual", "m/s", "knots"};
+inline constexpr std::array<std::string_view, 3> kSpeedUnitNames{"usual", "metres_per_second", "knots"};
 
 /// A unit that numbers are shown in; what is shown is computed in SI all the same.
 struct Unit {
@@ -39,7 +39,9 @@ struct Units {
 /// "12.3 m", "40.4 ft": a length or a speed, of a unit above.
 /// si  m or m/s
 [[nodiscard]] std::string quantity_text(double si, int decimals, const Unit& unit);
-/// As many digits as a round number needs, "50 m"; what is round in SI alone has three at least: "16.4 ft".
+/// In the unit: of what is round in SI alone three digits, 5 m are 16.4 ft and not 16.4042 ft, and all whole ones.
+[[nodiscard]] double rounded(double si, const Unit& unit);
+/// As many digits as a round number needs, "50 m"; rounded() before.
 [[nodiscard]] std::string round_text(double si, const Unit& unit);
 /// "depth (ft)", of an axis.
 [[nodiscard]] std::string with_unit(std::string_view what, const Unit& unit);
@@ -47,7 +49,8 @@ struct Units {
 /// The longest length that is 1, 2 or 5 times a power of ten of the unit and no longer than `most`, in SI: of a scale bar.
 [[nodiscard]] double round_below(double most, const Unit& unit);
 
-/// What a table's column is shown in, by the unit that it carries: "m", "m/s" or "m s-1", "kn". Every other one (areas,
+/// What a table's column is shown in, by the unit that it carries: "m", "m/s" (or "m s-1", as files and
+/// axes have it), "kn". Every other one (areas,
 /// volumes, levels, nautical miles) stays: the same name, si = 1.
 /// column_unit  outlives the result
 /// result       its `si` is how many of the column's unit are in one of it
