@@ -148,8 +148,8 @@ class LivePicture {
   void fail_with(std::string line);
 
   ChangeQueue& queue_;
-  const Shared<bool>& dark_;  ///< the window's
-  const Shared<Units>& units_read_;
+  const Shared<bool>& dark_;         ///< the window's
+  const Shared<Units>& units_read_;  ///< that numbers are read in
   PixelSize units_;
   double scale_ = 1.0;
   PixelSize size_;

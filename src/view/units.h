@@ -49,9 +49,8 @@ struct Units {
 /// The longest length that is 1, 2 or 5 times a power of ten of the unit and no longer than `most`, in SI: of a scale bar.
 [[nodiscard]] double round_below(double most, const Unit& unit);
 
-/// What a table's column is shown in, by the unit that it carries: "m", "m/s" (or "m s-1", as files and
-/// axes have it), "kn". Every other one (areas,
-/// volumes, levels, nautical miles) stays: the same name, si = 1.
+/// What a table's column is shown in, by the unit that it carries: "m", "m/s" (or "m s-1", as files and axes have it), "kn".
+/// Every other one (areas, volumes, levels, nautical miles) stays: the same name, si = 1.
 /// column_unit  outlives the result
 /// result       its `si` is how many of the column's unit are in one of it
 [[nodiscard]] Unit shown_unit(std::string_view column_unit, const Units& units);
