@@ -69,9 +69,10 @@ std::array<std::string, kColumns.size()> cells(const ReportSchool& s, const Unit
 void add_cell(FrameDescription& page, double left, double width, double y, const std::string& words, bool number,
               Rgba8 colour) {
   constexpr double kGap = 5.0;
+  constexpr double kLeast = 1.5;  // between a number and what stands left of it
   page.items.emplace_back(text_item({number ? left + width - kGap : left, y},
-                                    elided(words, kReportText_px, width - kGap), kReportText_px, colour,
-                                    number ? TextAnchor::right : TextAnchor::left));
+                                    elided(words, kReportText_px, width - (number ? kLeast : kGap)), kReportText_px,
+                                    colour, number ? TextAnchor::right : TextAnchor::left));
 }
 
 }  // namespace
