@@ -32,6 +32,7 @@ struct PictureOptions {
   double least_text_px = 0.0;      ///< of a pixel of the size
   std::optional<PanelLook> panel;  ///< of a page: text and lines have these sizes, colour bars are left to the page
   bool dark = false;
+  Units units{};  ///< that lengths and speeds are read in: a window's; programs leave SI
   DisplayParams display = plain_display();
   bool limits_given = false;  ///< the scale's limits are a choice: kinds with limits of their own take them too
   std::optional<TransferFunction> transfer;  ///< view curve instead of the scale's colours

@@ -277,5 +277,26 @@ TEST_F(Pictures, VolumesSayWhatBearingsStartFrom) {
   EXPECT_THAT(texts(*picture(PictureKind::volume)), testing::Contains("masks of schools"));
 }
 
+// What a window exports is read in its units; programs leave SI.
+TEST_F(Pictures, EveryKindIsReadInTheUnitsThatAreChosen) {
+  const auto metres = testing::AnyOf(testing::EndsWith(" m"), testing::HasSubstr("(m)"), testing::HasSubstr(" m "));
+  for (const PictureKind kind : {PictureKind::volume, PictureKind::propagation, PictureKind::timeline,
+                                 PictureKind::chart, PictureKind::report}) {
+    options_.kind.chart.y = "depth_m";
+    options_.units = {};
+    const auto si = picture(kind);
+    options_.units = {LengthUnit::feet, SpeedUnit::knots};
+    const auto feet = picture(kind);
+    ASSERT_TRUE(si && feet);
+    EXPECT_THAT(texts(*si), testing::Contains(metres));
+    EXPECT_THAT(texts(*feet), testing::Not(testing::Contains(metres)));
+    EXPECT_THAT(texts(*feet), testing::Contains(testing::AnyOf(testing::HasSubstr(" ft"), testing::HasSubstr("(ft)"))));
+  }
+  const auto report = picture(PictureKind::report);
+  EXPECT_THAT(texts(*report), testing::IsSupersetOf({"Depth ft", "Length ft"})) << "whole: they have room";
+  options_.units.lengths = LengthUnit::fathoms;
+  EXPECT_THAT(texts(*picture(PictureKind::report)), testing::IsSupersetOf({"Depth fm", "Length fm"}));
+}
+
 }  // namespace
 }  // namespace sonar

@@ -40,12 +40,17 @@ SphereChartBeam chart_beam(const SphereCalibration& made, const CalibratedBeam& 
 
 }  // namespace
 
+std::string sphere_words(const SphereCalibration& made, const Units& units) {
+  const Unit unit = units.length();
+  return fmt::format("used in {} of {} at {:.1f} to {}; residuals {:.3f} dB", made.used,
+                     count_of(static_cast<std::size_t>(made.pings), "ping"), unit.of(made.range_from_m),
+                     quantity_text(made.range_to_m, 1, unit), made.fit.residual_rms_db);
+}
+
 SphereChartData sphere_chart_data(const SphereCalibration& made, const SphereRunParams& params) {
   SphereChartData out;
   out.title = fmt::format("{}: sphere of {}", made.observations.front(), sphere_text(params));
-  out.words = fmt::format("used in {} of {} at {:.1f} to {:.1f} m; residuals {:.3f} dB", made.used,
-                          count_of(static_cast<std::size_t>(made.pings), "ping"), made.range_from_m, made.range_to_m,
-                          made.fit.residual_rms_db);
+  out.words = sphere_words(made);
   for (const CalibratedBeam& beam : made.beams) {
     out.fans = std::max(out.fans, beam.fan + 1);
     out.beams_a_fan = std::max(out.beams_a_fan, beam.beam + 1);

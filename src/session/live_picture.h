@@ -13,6 +13,7 @@
 #include "base/work.h"
 #include "session/change_queue.h"
 #include "session/listeners.h"
+#include "session/listening.h"
 #include "session/picture_look.h"
 #include "view/frame_description.h"
 #include "view/image.h"
@@ -150,7 +151,8 @@ class LivePicture {
   void fail_with(std::string line);
 
   ChangeQueue& queue_;
-  const Shared<bool>& dark_;  ///< the window's
+  const Shared<bool>& dark_;         ///< the window's
+  const Shared<Units>& units_read_;  ///< that numbers are read in
   PixelSize units_;
   double scale_ = 1.0;
   PixelSize size_;
@@ -167,6 +169,7 @@ class LivePicture {
   std::shared_ptr<bool> alive_ =
       std::make_shared<bool>(true);  ///< of pictures on their way: once it is another, they are dropped
   std::optional<CancelToken> wish_;
+  Listening units_heard_;
   TaskThread background_;  // the last member: it ends first
 };
 

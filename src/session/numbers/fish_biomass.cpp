@@ -82,6 +82,10 @@ FishBiomass::FishBiomass(Workspace& workspace, Integration& integration)
     if (change == DocumentChange::survey || change == DocumentChange::measures) again();
   });
   listening_.to(params, [this] { again(); });
+  listening_.to(workspace.units.changed(), [this] {
+    school_rows.show_in(workspace_.units());
+    strata_rows.show_in(workspace_.units());
+  });
   listening_.to(integration.changed(), [this] {
     if (integration_.result() != integrated_) again();
   });

@@ -63,6 +63,11 @@ Integration::Integration(Workspace& workspace)
       workspace_(workspace) {
   listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
   listening_.to(workspace.transects.changed(), [this] { changed_.tell(); });
+  listening_.to(workspace.units.changed(), [this] {
+    effort_rows.show_in(workspace_.units());
+    nasc_rows.show_in(workspace_.units());
+    strata_rows.show_in(workspace_.units());
+  });
 }
 
 Integration::~Integration() {

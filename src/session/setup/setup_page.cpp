@@ -91,7 +91,7 @@ Result<void> SetupPage::use(bool mounting_angle, bool sound_speed) {
 std::string SetupPage::hint(PixelPoint at) const {
   if (!sight_) return {};
   const auto leg = sight_->chart.leg_at(sight_->data, at);
-  return leg ? leg_text(sight_->data.legs[*leg]) : std::string();
+  return leg ? leg_text(sight_->data.legs[*leg], app_.workspace.units()) : std::string();
 }
 
 }  // namespace sonar

@@ -163,7 +163,9 @@ LivePicture::Build SpherePage::build(const PictureLook& look) {
   if (!made_) return {};
   return [made = made_, style = SphereChartStyle{look_.values(), beam_}, look](PixelSize size, const CancelToken&,
                                                                                const Show& show) -> Result<void> {
-    auto chart = sphere_chart(made->chart, style, size, dock_theme(size, look));
+    SphereChartData data = made->chart;
+    data.words = sphere_words(made->calibration, look.units);
+    auto chart = sphere_chart(data, style, size, dock_theme(size, look));
     if (!chart) return pass_on(chart);
     auto sight = std::make_shared<const SphereChart>(std::move(*chart));
     show({sight->frame, std::nullopt, sight});

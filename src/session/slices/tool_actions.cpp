@@ -51,7 +51,8 @@ void copy_read_out(AppModel& app) {
 
 void copy_figures(AppModel& app) {
   const auto& measured = app.workspace.measurement();
-  if (measured && on_show(app.workspace, *measured) && app.dialogs.copy) app.dialogs.copy(table_text(*measured));
+  if (measured && on_show(app.workspace, *measured) && app.dialogs.copy)
+    app.dialogs.copy(table_text(*measured, app.workspace.units()));
 }
 
 void add_measuring(AppModel& app) {

@@ -306,5 +306,21 @@ TEST_F(MeasureAtWork, FiguresAreCopiedWithTheirUnits) {
   EXPECT_EQ(document().notices(), std::vector<std::string>{});
 }
 
+// 30.48 m are 100 ft, 60.96 m 200 ft, 15.24 m 50 ft.
+TEST(MeasuredText, IsInTheUnitsThatAreRead) {
+  Measurement measured;
+  measured.line = {.horizontal_m = 30.48, .slant_m = 60.96, .deeper_m = 15.24};
+  const Units feet{LengthUnit::feet, SpeedUnit::usual};
+  EXPECT_EQ(whole_text(measured, feet), "line: 100.0 ft horizontal, 200.0 ft slant, 50.0 ft deeper");
+  EXPECT_EQ(brief_text(measured), "30.5 m horizontal\n61.0 m slant\n15.2 m deeper");
+  EXPECT_THAT(table_text(measured, feet), HasSubstr("\tslant distance (ft)\t"));
+  EXPECT_THAT(table_text(measured, feet), HasSubstr("\t200.00\t"));
+  EXPECT_THAT(table_text(measured), HasSubstr("\t60.96\t"));
+  measured.on = Measurement::On::map;
+  measured.line.horizontal_m = 1852.0;
+  EXPECT_THAT(whole_text(measured, feet), HasSubstr("6 076 ft, 1.000 nmi")) << "1852 / 0.3048 = 6076.1";
+  EXPECT_THAT(whole_text(measured), HasSubstr("1 852 m, 1.000 nmi"));
+}
+
 }  // namespace
 }  // namespace sonar

@@ -95,6 +95,7 @@ std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const st
   input.options.least_text_px = kLeastText_px;
   input.options.panel = look.panel;
   input.options.dark = look.dark;
+  input.options.units = look.units;
   input.options.transfer = workspace.view_curve();
   input.options.camera = camera;
   input.scale = look.scale;

@@ -39,7 +39,8 @@ struct ScaleBar {
   std::string text;  ///< "5 nmi", "10 km"
 };
 /// left  of the bar; most_px  its longest length. Units: nautical miles or kilometres, metres where short.
-[[nodiscard]] ScaleBar scale_bar(const MapFrame& map, PixelPoint left, double most_px, bool nautical);
+[[nodiscard]] ScaleBar scale_bar(const MapFrame& map, PixelPoint left, double most_px, bool nautical,
+                                 const Units& units = {});
 /// Both bars in the map's lower left corner; where north is not up (over 1 degree off somewhere), an arrow in its upper
 /// right corner.
 void add_scale_and_north(FrameDescription& frame, const MapFrame& map, const Theme& theme);

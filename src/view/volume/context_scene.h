@@ -76,6 +76,7 @@ struct ContextParams {
   bool ship = true;
   bool depth_axis = true;
   double ring_spacing_m = 0.0;  ///< 0 = chosen by the range
+  Units units{};                ///< rings and depths stand at round numbers of them
   double ship_length_m = 60.0;
   double transducer_depth_m = 7.0;
   std::optional<double> heading_deg;  ///< bearings are labelled from true north where it is known, else from the bow
@@ -106,8 +107,8 @@ struct ContextParams {
 /// Smallest and largest depth of what lies below the sea, m, at least 1 m apart; empty where nothing does.
 [[nodiscard]] std::optional<std::pair<double, double>> depth_span(const SeabedPatch& bed);
 
-/// Metres of depth between a seabed's lines; 0 where nothing is known.
-[[nodiscard]] double seabed_line_step_m(const SeabedPatch& bed);
+/// Metres of depth between a seabed's lines, which lie at round numbers of the unit of lengths; 0 where nothing is known.
+[[nodiscard]] double seabed_line_step_m(const SeabedPatch& bed, const Units& units = {});
 /// How many times as steep as it is a seabed is lit, 1 to 100, so that gentle slopes are seen: charts do the same. Its
 /// places are true.
 [[nodiscard]] double relief_exaggeration(const SeabedPatch& bed);
