@@ -55,24 +55,28 @@ Result<FishLengths> read_fish_lengths(const std::filesystem::path& path) {
   return fish_lengths_of(*table);
 }
 
-Result<std::map<std::string, double>> read_stratum_areas(const std::filesystem::path& path) {
-  const auto table = read_csv(path);
-  if (!table) return pass_on(table);
-  const auto stratum = table->require_column("stratum");
+Result<std::map<std::string, double>> stratum_areas_of(const CsvTable& table) {
+  const auto stratum = table.require_column("stratum");
   if (!stratum) return pass_on(stratum);
-  const auto area = table->require_column("area_nmi2");
+  const auto area = table.require_column("area_nmi2");
   if (!area) return pass_on(area);
   std::map<std::string, double> areas;
-  for (const CsvRecord& record : table->records) {
-    const auto nmi2 = table->number(record, *area);
+  for (const CsvRecord& record : table.records) {
+    const auto nmi2 = table.number(record, *area);
     if (!nmi2) return pass_on(nmi2);
-    if (!(*nmi2 > 0.0)) return refused(*table, record.line, "expected an area above 0 nmi2");
+    if (!(*nmi2 > 0.0)) return refused(table, record.line, "expected an area above 0 nmi2");
     const std::string& name = record.fields[*stratum];
     if (!areas.emplace(name, *nmi2).second) {
-      return refused(*table, record.line, fmt::format("the stratum '{}' stands twice", name.substr(0, 40)));
+      return refused(table, record.line, fmt::format("the stratum '{}' stands twice", name.substr(0, 40)));
     }
   }
   return areas;
+}
+
+Result<std::map<std::string, double>> read_stratum_areas(const std::filesystem::path& path) {
+  const auto table = read_csv(path);
+  if (!table) return pass_on(table);
+  return stratum_areas_of(*table);
 }
 
 }  // namespace sonar

@@ -19,7 +19,9 @@ namespace sonar {
 [[nodiscard]] Result<FishLengths> read_fish_lengths(const std::filesystem::path& path);
 
 /// Areas of strata, square nautical miles, from a table `stratum,area_nmi2`.
-/// errors  format, naming file and line: a stratum twice, an area not above 0; not_found, io
+/// errors  format, naming file and line: a stratum twice, an area not above 0
+[[nodiscard]] Result<std::map<std::string, double>> stratum_areas_of(const CsvTable& table);
+/// errors  also not_found, io
 [[nodiscard]] Result<std::map<std::string, double>> read_stratum_areas(const std::filesystem::path& path);
 
 }  // namespace sonar
