@@ -154,7 +154,7 @@ class Mutation(Case):
         (survey / self.last.name).write_bytes(self.last.read_bytes())
         for file, _, data in damages:
             (survey / file.name).write_bytes(data)
-        code, text, err = run("run", survey, "--out", out, "--jobs", 1, timeout=60)
+        code, text, err = run("run", survey, "--out", out, "--jobs", 1, timeout=40 + 20 * len(damages))
         self.assertIn(code, (0, 3), err)
         for line in err.splitlines():
             self.assertTrue(line.startswith(("note ", "note: ", "sonarx: ")), line)

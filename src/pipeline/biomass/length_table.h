@@ -12,8 +12,8 @@
 namespace sonar {
 
 /// Lengths of fish from a table `length_cm,count` (fish measured) or `length_cm,fraction` (shares; they need not add up to 1).
-/// errors  format, naming file and line: other columns, a length not above 0 or twice, a count that is no whole number from 0,
-///         a fraction below 0, no fish
+/// errors  format, naming file and line: other columns, a length not above 0 or twice, a count that is no whole number from 0
+///         to 1e9, a fraction outside these bounds, no fish
 [[nodiscard]] Result<FishLengths> fish_lengths_of(const CsvTable& table);
 /// errors  also not_found, io
 [[nodiscard]] Result<FishLengths> read_fish_lengths(const std::filesystem::path& path);
