@@ -9,8 +9,6 @@ import subprocess
 import sonarx
 from sonarx import Case, run
 
-COLUMNS = ("channel,count,elevation_deg,azimuth_deg,frequency_hz,vertical_width_deg,horizontal_width_deg,gain_db,psi_db,"
-           "sa_correction_db,power_w,absorption_db_per_m")
 INT, FLOAT = "<i", "<f"
 # Where fields lie in a RAW0's body (channel is a short) and in CON0's head and first beam.
 RAW0 = {"channel": (0, "<h"), "mode": (2, "<h"), "depth": (4, FLOAT), "frequency": (8, FLOAT), "power": (12, FLOAT),
@@ -115,14 +113,9 @@ class Mutation(Case):
     @classmethod
     def setUpClass(cls):
         folder = cls.fresh("mutation")
-        beams = [f"{16 * fan + beam},900,{2.5 * fan - 30},{-20 + 2.5 * beam},{80000 + 2000 * fan},3,3,27,-27,0,1000,0.03"
-                 for fan in range(10) for beam in range(16)]
-        (folder / "beams.csv").write_text("\n".join([COLUMNS, *beams]) + "\n", encoding="ascii")
-        code, _, err = run("simulate", folder / "sound", "--preset", "easy", "--seed", 5, "--observations", DAMAGED + 1,
-                           "--pings", 5, "--schools", 2, "--beams", folder / "beams.csv")
-        assert code == 0, err
+        sound = sonarx.simulate_tiny(folder, observations=DAMAGED + 1, pings=5)
         cls.folder = folder
-        *cls.damaged, cls.last = sorted((folder / "sound").glob("*.raw"))
+        *cls.damaged, cls.last = sorted(sound.glob("*.raw"))
 
     def rows_of_last(self, out):
         """Rows of the sound file's observation, whatever it is called."""
