@@ -45,6 +45,7 @@ std::optional<std::vector<SurveyNumber>> told_numbers(const std::filesystem::pat
   const auto json = read_json_file((out / "survey.json").string());
   if (!json || !json->is_object() || !json->contains("survey_schools")) return std::nullopt;
   std::vector<SurveyNumber> numbers;
+  std::set<std::int64_t> taken;  // a number that stands twice is the first one's
   for (const auto& kept : json->at("survey_schools")) {
     if (!kept.is_object()) continue;
     const auto whole = [&](const char* member) {
@@ -53,7 +54,8 @@ std::optional<std::vector<SurveyNumber>> told_numbers(const std::filesystem::pat
     };
     SurveyNumber number{whole("survey_school"), "", whole("school_id"), whole("first_time_ns"), whole("last_time_ns")};
     if (kept.contains("source") && kept["source"].is_string()) number.source = kept["source"];
-    if (number.number > 0 && number.number <= kMostNumber) numbers.push_back(std::move(number));
+    if (number.number < 1 || number.number > kMostNumber || !taken.insert(number.number).second) continue;
+    numbers.push_back(std::move(number));
   }
   return numbers;
 }

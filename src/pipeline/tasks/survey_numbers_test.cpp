@@ -151,7 +151,8 @@ TEST(SurveyNumbers, AbsurdOnesAreNotKept) {
   const test::TemporaryFolder folder;
   std::ofstream(folder.path() / "survey.json")
       << R"({"survey_schools": [7, {"survey_school": 9223372036854775807}, {"survey_school": 18446744073709551615},
-             {"survey_school": -4}, {"survey_school": 12, "source": "MS70", "school_id": 1}]})";
+             {"survey_school": -4}, {"survey_school": 12, "source": "MS70", "school_id": 1},
+             {"survey_school": 12, "source": "MS70", "school_id": 2}]})";
   const auto kept = kept_numbers(folder.path());
   ASSERT_EQ(kept.size(), 1U);
   std::vector<ObservationProduct> products{observation("obs-0001", {{2, 5, 9}})};
