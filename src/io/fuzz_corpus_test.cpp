@@ -6,6 +6,7 @@
 
 #include "base/test_corpus.h"
 #include "io/fuzz_bodies.h"
+#include "io/fuzz_currents.h"
 #include "io/fuzz_product.h"
 #include "io/fuzz_raster.h"
 
@@ -57,6 +58,18 @@ TEST(FuzzCorpus, Product) {
 TEST(FuzzCorpus, ProductBytes) {
   const test::CorpusFolder folder("product_bytes");
   test::replay("product_bytes", [&](const std::string& bytes) { fuzz::product_bytes(bytes, folder.path()); });
+}
+
+TEST(FuzzCorpus, Currents) {
+  const test::CorpusFolder folder("currents");
+  test::replay("currents",
+               [&](const std::string& bytes) { fuzz::currents(std::as_bytes(std::span(bytes)), folder.path()); });
+}
+
+TEST(FuzzCorpus, SealedFile) {
+  const test::CorpusFolder folder("sealed");
+  test::replay("sealed_file",
+               [&](const std::string& bytes) { fuzz::sealed_file(std::as_bytes(std::span(bytes)), folder.path()); });
 }
 
 TEST(FuzzCorpus, Wire) {
