@@ -198,6 +198,9 @@ class Document {
   /// known when all are measured.
   [[nodiscard]] const std::vector<SurveyNumber>& survey_numbers() const { return survey_->survey_numbers_; }
   [[nodiscard]] bool all_measured() const { return survey_->all_measured(); }
+  /// Why schools of an open observation could not be measured, as it was told; empty = nothing is known against it.
+  /// open_all() tries again.
+  [[nodiscard]] const std::string& unmeasured() const { return survey_->unmeasured(); }
   void keep_survey_numbers(std::vector<SurveyNumber> numbers) { survey_->keep_survey_numbers(std::move(numbers)); }
 
   /// Whether figures are on their way.

@@ -166,9 +166,15 @@ void Integration::hear(DocumentChange change) {
     return put(nullptr);
   }
   const bool further = change == DocumentChange::measures || change == DocumentChange::progress;
-  if (further && waiting_ && measured()) {
+  if (!further || !waiting_) return;
+  const Document& document = workspace_.document;
+  if (measured()) {
     begin();
     changed_.tell();
+  } else if (!document.unmeasured().empty() && !document.measuring()) {
+    waiting_ = false;
+    progress_ = {};
+    tell(document.unmeasured());
   }
 }
 

@@ -61,6 +61,7 @@ void SetupPage::take(const std::shared_ptr<const void>& detail) {
 std::string SetupPage::told() const {
   const Document& document = app_.workspace.document;
   if (document.survey() == nullptr) return "no survey is open";
+  if (!document.unmeasured().empty() && !document.measuring()) return document.unmeasured();
   if (!document.all_measured() || document.measuring()) return "schools are still being measured...";
   if (!document.results().empty()) return "the raw files are not here: their recipe cannot be changed";
   return {};

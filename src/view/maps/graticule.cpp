@@ -202,18 +202,24 @@ std::array<ScaleBar, 2> scale_bars(const MapFrame& map, const Theme& theme) {
 
 }  // namespace
 
-PixelRect scale_bars_place(const MapFrame& map, const Theme& theme) {
+std::optional<PixelRect> scale_bars_place(const MapFrame& map, const Theme& theme) {
+  constexpr double kLeastMap_em = 10.0;  // of a lower one they cover a quarter and more
   const double em = theme.text_px;
+  if (map.place.height < kLeastMap_em * em) return std::nullopt;
   const auto bars = scale_bars(map, theme);
   const PixelPoint from = bars[0].from;
   const double longest = std::max(bars[0].to.x, bars[1].to.x) - from.x;
-  return {from.x - 0.6 * em, from.y - 0.9 * em, longest + 5.4 * em, 2.7 * em};
+  return PixelRect{from.x - 0.6 * em, from.y - 0.9 * em, longest + 5.4 * em, 2.7 * em};
 }
 
-void add_scale_and_north(FrameDescription& frame, const MapFrame& map, const Theme& theme) {
+namespace {
+
+void add_scale(FrameDescription& frame, const MapFrame& map, const Theme& theme) {
   const double em = theme.text_px;
+  const auto place = scale_bars_place(map, theme);
+  if (!place) return;
   const auto bars = scale_bars(map, theme);
-  frame.items.emplace_back(rectangle_item(scale_bars_place(map, theme), theme.halo, theme.grid, theme.line_px));
+  frame.items.emplace_back(rectangle_item(*place, theme.halo, theme.grid, theme.line_px));
   for (const ScaleBar& bar : bars) {
     const double tick = 0.3 * em;
     PathItem path = polyline_item({{bar.from.x, bar.from.y - tick}, bar.from, bar.to, {bar.to.x, bar.to.y - tick}},
@@ -222,6 +228,13 @@ void add_scale_and_north(FrameDescription& frame, const MapFrame& map, const The
     frame.items.emplace_back(
         text_item({bar.to.x + 0.4 * em, bar.to.y - 0.1 * em}, bar.text, small_text_px(theme, 0.9), theme.text));
   }
+}
+
+}  // namespace
+
+void add_scale_and_north(FrameDescription& frame, const MapFrame& map, const Theme& theme) {
+  add_scale(frame, map, theme);
+  const double em = theme.text_px;
   double most_rad = 0.0;
   for (const double u : {0.02, 0.98}) {
     for (const double v : {0.02, 0.98}) {
