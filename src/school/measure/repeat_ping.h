@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "base/array.h"
 #include "model/mask.h"
+#include "school/measure/fading_field.h"
 #include "school/measure/measure_input.h"
 #include "school/runs.h"
 #include "signal/median.h"
@@ -24,12 +26,13 @@ class PingRepeater {
   [[nodiscard]] PingMask at_threshold(double step_db) const;
 
  private:
-  /// Exponential fading of mean 1 in the box, counts; neighbours share it.
-  [[nodiscard]] Array3<std::int16_t> fading(std::uint64_t seed) const;
-  /// Members where the filtered level changes by so much and the threshold too.
-  [[nodiscard]] PingMask moved_mask(View3<const std::int16_t> change, double threshold_db) const;
-  [[nodiscard]] double loud_part_db(View3<const std::int16_t> change) const;
-  /// By how many counts the members' echo lies above their filtered level. A median of fading is less than its mean, and a
+  [[nodiscard]] Array3<std::int16_t> heard_in_box() const;
+  [[nodiscard]] Array3<std::int16_t> smoothed() const;
+  /// Members where the filtered level is this (of the box) and the threshold that.
+  [[nodiscard]] PingMask mask_again(View3<const std::int16_t> later, double threshold_db) const;
+  /// By how much the mask's loud part then is louder.
+  [[nodiscard]] double loud_part_db(View3<const std::int16_t> later) const;
+  /// By how many counts the members' echo lies above their level. A median of fading is less than its mean, and a
   /// median over a box is less again where a school is not much larger than the box: up to 3 dB in all.
   [[nodiscard]] double echo_of_level() const;
 
@@ -40,9 +43,12 @@ class PingRepeater {
   IndexBox box_;  ///< round the school, the water beside it included
   Array3<std::int16_t> sv_;
   Array3<std::int16_t> filtered_;
-  Array3<std::uint8_t> members_;  ///< in the box: confidence, 0 = no member
-  Array3<std::uint8_t> next_to_;  ///< in the box: 1 = within a beam, a fan and half the filter of a member
-  double alike_[3] = {1, 1, 1};   ///< neighbours that fade as one over fans, beams and samples
+  // In the box:
+  Array3<std::uint8_t> members_;  ///< confidence, 0 = no member
+  Array3<std::uint8_t> next_to_;  ///< 1 = within a beam, a fan and half the filter of a member
+  Array3<std::int16_t> heard_;    ///< the filtered level
+  Array3<std::int16_t> level_;    ///< that filtered again: what is left of this ping's own fading would add to the new one
+  std::optional<FadingField> field_;
   double echo_of_level_ = 0.0;
 };
 
