@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,7 +67,8 @@ class School {
       see();
       const double loud_db = db_from_counts(percentile(filtered_.view(), truth_, 0.95));
       const std::array<VoxelIndex, 1> seed{loudest()};
-      const PingMask mask = grow(filtered_.view(), flags_.view(), MemberTable::one_sided(loud_db, tolerance_db), seed, {});
+      const PingMask mask =
+          grow(filtered_.view(), flags_.view(), MemberTable::one_sided(loud_db, tolerance_db), seed, {});
       const MeasureInput input = input_of(loud_db - tolerance_db);
       const auto start = Clock::now();
       rows.push_back(measure_row(input, mask, measure_));
@@ -75,7 +77,8 @@ class School {
       if (repeats == nullptr) continue;
       costs.measuring += ms_since(start);
       const auto again = Clock::now();
-      repeats->push_back(measure_repeats(input, mask, MedianParams{}, kTolerance_db, random_(), measure_, errors_));
+      repeats->push_back(measure_repeats(input, mask, MedianParams{}, kTolerance_db, random_(),
+                                         static_cast<std::size_t>(pings_), measure_, errors_));
       costs.repeating += ms_since(again);
       ++costs.pings;
     }
@@ -190,7 +193,8 @@ void test_school(School& school, int looks, Random& random, std::array<Tally, kE
     const FigureValues figures = figures_of(row);
     const FigureValues errors = school_errors(rows, all, {}, params);
     ErrorParams fading_only;
-    fading_only.threshold_db = fading_only.calibration_db = fading_only.sound_speed_percent = fading_only.tilt_deg = 0.0;
+    fading_only.threshold_db = fading_only.calibration_db = fading_only.sound_speed_percent = fading_only.tilt_deg =
+        0.0;
     for (Repeats& one : repeats) {
       if (!one.empty()) one.end()[-1] = one.end()[-2];
     }
@@ -208,11 +212,13 @@ void test_school(School& school, int looks, Random& random, std::array<Tally, kE
       double mean = 0.0;
       double variance = 0.0;
       for (const double one : others[i]) mean += one / static_cast<double>(others[i].size());
-      for (const double one : others[i]) variance += (one - mean) * (one - mean) / static_cast<double>(others[i].size() - 1);
+      for (const double one : others[i])
+        variance += (one - mean) * (one - mean) / static_cast<double>(others[i].size() - 1);
       const double seen =
           disturbed(kErrorColumns[i], figures[i], row.horizontal_range_m, calibration_db, faster, tilt_rad);
       ++tally.looks;
-      if (std::abs(seen - mean) <= kNormal * errors[i]) ++tally.covered;
+      if (std::abs(seen - mean) <= kNormal * errors[i] + 1e-9 * std::abs(mean)) ++tally.covered;  // rounding
+
       if (!(variance > 0.0)) continue;
       // in units of the figure's mean, so that no large school outweighs all others
       const double scale = 1.0 / std::max(std::abs(mean), 0.1);
@@ -238,7 +244,8 @@ Limits wilson(int hits, int tries) {
 
 bool print(const std::array<Tally, kErrorCount>& tallies) {
   bool good = true;
-  fmt::print("{:26} {:>6} {:>8} {:>7} {:>14} {:>10}\n", "figure", "looks", "no band", "in band", "95 % limits", "told/true");
+  fmt::print("{:26} {:>6} {:>8} {:>7} {:>14} {:>10}\n", "figure", "looks", "no band", "in band", "95 % limits",
+             "told/true");
   for (std::size_t i = 0; i < kErrorCount; ++i) {
     const Tally& tally = tallies[i];
     if (tally.looks == 0) {
@@ -249,8 +256,8 @@ bool print(const std::array<Tally, kErrorCount>& tallies) {
     const bool inside = limits.high >= 0.93 && limits.low <= 0.97;
     good = good && inside;
     const double ratio = tally.scatter > 0.0 ? std::sqrt(tally.told / tally.scatter) : 0.0;
-    fmt::print("{:26} {:6} {:8} {:6.1f}% {:6.1f}-{:5.1f}% {:10.2f}{}\n", kErrorColumns[i].figure, tally.looks, tally.unknown,
-               100.0 * tally.covered / tally.looks, 100.0 * limits.low, 100.0 * limits.high, ratio,
+    fmt::print("{:26} {:6} {:8} {:6.1f}% {:6.1f}-{:5.1f}% {:10.2f}{}\n", kErrorColumns[i].figure, tally.looks,
+               tally.unknown, 100.0 * tally.covered / tally.looks, 100.0 * limits.low, 100.0 * limits.high, ratio,
                inside ? "" : "  outside 93 to 97 %");
   }
   return good;
@@ -275,7 +282,9 @@ int run(int bodies, int looks, int pings, std::uint64_t seed, bool own_frequenci
 }  // namespace sonar::bench
 
 int main(int argc, char** argv) {
-  const auto number = [&](int at, long otherwise) { return argc > at ? std::strtol(argv[at], nullptr, 10) : otherwise; };
+  const auto number = [&](int at, long otherwise) {
+    return argc > at ? std::strtol(argv[at], nullptr, 10) : otherwise;
+  };
   const bool own = argc <= 5 || std::string(argv[5]) == "own";
   return sonar::bench::run(static_cast<int>(number(1, 250)), static_cast<int>(number(2, 4)),
                            static_cast<int>(number(3, 1)), static_cast<std::uint64_t>(number(4, 1)), own);

@@ -38,9 +38,9 @@ struct Body {
 inline Body random_body(Random& random) {
   Body body;
   body.form = static_cast<Form>(std::uniform_int_distribution<int>(0, 2)(random));
-  body.hull.centre = Sector::direction(rad_from_deg(between(random, -32.0, -12.0)),
-                                       rad_from_deg(between(random, 260.0, 280.0))) *
-                     between(random, 90.0, 260.0);
+  body.hull.centre =
+      Sector::direction(rad_from_deg(between(random, -32.0, -12.0)), rad_from_deg(between(random, 260.0, 280.0))) *
+      between(random, 90.0, 260.0);
   body.hull.half_x = between(random, 9.0, 28.0);
   body.hull.half_y = between(random, 7.0, 18.0);
   body.hull.half_z = between(random, 4.0, 11.0);
@@ -86,8 +86,8 @@ inline void add_point(Water& water, const Point<Sonar>& at, double backscatter_m
       const double off = std::remainder(std::atan2(at.y, at.x) - sector.azimuth_rad(b), 2.0 * std::numbers::pi);
       const double aside = off * std::cos(elevation) / sigma_h;
       if (std::abs(aside) > kReach) continue;
-      water.expected(f, b, sample) += sv * test::two_way(test::Beams::gaussian, up, true) *
-                                      test::two_way(test::Beams::gaussian, aside, false);
+      water.expected(f, b, sample) +=
+          sv * test::two_way(test::Beams::gaussian, up, true) * test::two_way(test::Beams::gaussian, aside, false);
     }
   }
 }
@@ -109,7 +109,8 @@ inline void fill(Water& water, const Body& body, Random& random) {
     const double across = y * hull.half_y + body.bend_m * (2.0 * x * x - 0.4);
     const double cos = std::cos(body.axis_rad);
     const double sin = std::sin(body.axis_rad);
-    add_point(water, hull.centre + Point<Sonar>{along * cos - across * sin, along * sin + across * cos, z * hull.half_z},
+    add_point(water,
+              hull.centre + Point<Sonar>{along * cos - across * sin, along * sin + across * cos, z * hull.half_z},
               backscatter_m2);
   }
 }
@@ -170,8 +171,7 @@ class Fading {
       for (std::size_t i = 0; i < now.size(); ++i) {
         std::complex<double> sum = 0.0;
         for (const auto& one : heard) sum += one[i];
-        fading(static_cast<int>(i / beams), static_cast<int>(i % beams), s) =
-            std::norm(sum) / (2.0 * pulse_samples_);
+        fading(static_cast<int>(i / beams), static_cast<int>(i % beams), s) = std::norm(sum) / (2.0 * pulse_samples_);
       }
     }
     return fading;

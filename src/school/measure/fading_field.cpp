@@ -14,14 +14,6 @@
 namespace sonar {
 namespace {
 
-/// splitmix64 (Steele, Lea & Flood 2014): a number for each number, whatever the order they are asked in.
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15ULL;
-  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9ULL;
-  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebULL;
-  return x ^ (x >> 31U);
-}
-
 constexpr unsigned kBits = 12;
 constexpr std::size_t kSteps = std::size_t{1} << kBits;
 
@@ -75,6 +67,13 @@ void mix(const std::vector<float>& weights, const auto& row_of) {
 
 }  // namespace
 
+std::uint64_t mixed(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15ULL;
+  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31U);
+}
+
 template <class Correlation>
 FadingField::Weights FadingField::weights(int count, const Correlation& correlation) {
   constexpr double kNothing = 1e-3;
@@ -99,12 +98,12 @@ FadingField::FadingField(const BeamGrid& grid, const IndexBox& box, double sampl
   if (sample_m > 0.0 && pulse_m > sample_m) pulse_samples_ = static_cast<int>(std::lround(pulse_m / sample_m));
   const auto row = [&](int fan, int beam) { return (box.first_fan + fan) * grid.beams() + box.first_beam + beam; };
   for (int fan = 0; fan < size_.fans; ++fan) {
-    of_beams_.push_back(weights(
-        size_.beams, [&](int a, int b) { return amplitude_correlation(grid, row(fan, a), row(fan, b)); }));
+    of_beams_.push_back(
+        weights(size_.beams, [&](int a, int b) { return amplitude_correlation(grid, row(fan, a), row(fan, b)); }));
   }
   const int middle = size_.beams / 2;
-  of_fans_ = weights(size_.fans,
-                     [&](int a, int b) { return amplitude_correlation(grid, row(a, middle), row(b, middle)); });
+  of_fans_ =
+      weights(size_.fans, [&](int a, int b) { return amplitude_correlation(grid, row(a, middle), row(b, middle)); });
 }
 
 Array3<std::int16_t> FadingField::draw(std::uint64_t seed) const {

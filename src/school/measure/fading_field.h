@@ -10,6 +10,9 @@
 
 namespace sonar {
 
+/// splitmix64 (Steele, Lea & Flood 2014): a number for each number, whatever the order they are asked in.
+[[nodiscard]] std::uint64_t mixed(std::uint64_t x);
+
 /// Fading of many targets' echo in a box of a ping: exponential, of mean 1, shared by neighbours as amplitude_correlation() and a
 /// rectangular pulse tell. Between fans of one frequency as at the box's middle beam.
 class FadingField {

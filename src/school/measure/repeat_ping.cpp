@@ -14,6 +14,9 @@
 namespace sonar {
 namespace {
 
+/// A filter that runs twice takes off a body's corners twice; what the second time takes is put on before it, up to this.
+constexpr double kMostRaised_db = 6.0;
+
 std::int16_t clamped(double counts) {
   return static_cast<std::int16_t>(
       std::clamp(std::round(counts), static_cast<double>(kMinCount), static_cast<double>(kMaxCount)));
@@ -56,7 +59,8 @@ Array3<std::int16_t> PingRepeater::heard_in_box() const {
   for (int f = 0; f < box_.fans(); ++f) {
     for (int b = 0; b < box_.beams(); ++b) {
       const auto row = ping_.filtered.row(box_.first_fan + f, box_.first_beam + b);
-      const auto from = row.subspan(static_cast<std::size_t>(box_.first_sample), static_cast<std::size_t>(box_.samples()));
+      const auto from =
+          row.subspan(static_cast<std::size_t>(box_.first_sample), static_cast<std::size_t>(box_.samples()));
       std::copy(from.begin(), from.end(), heard.view().row(f, b).begin());
     }
   }
@@ -64,9 +68,20 @@ Array3<std::int16_t> PingRepeater::heard_in_box() const {
 }
 
 Array3<std::int16_t> PingRepeater::smoothed() const {
-  Array3<std::int16_t> level(heard_.shape());
+  const double limit = counts_from_db(kMostRaised_db);
   const Array3<SampleFlags> sound(heard_.shape());
-  median_into(heard_.view(), sound.view(), median_, level.view());
+  Array3<std::int16_t> again(heard_.shape());
+  median_into(heard_.view(), sound.view(), median_, again.view());
+  for (std::size_t i = 0; i < again.all().size(); ++i) {
+    const std::int16_t heard = heard_.all()[i];
+    std::int16_t& raised = again.all()[i];
+    raised = raised == kNoData || heard == kNoData ? heard
+                                                   : clamped(heard + std::clamp(1.0 * heard - raised, -limit, limit));
+  }
+  MedianParams along = median_;
+  along.kernel_fans = along.kernel_beams = 1;
+  Array3<std::int16_t> level(heard_.shape());
+  median_into(again.view(), sound.view(), along, level.view());
   for (std::size_t i = 0; i < level.all().size(); ++i) {
     if (level.all()[i] == kNoData || heard_.all()[i] == kNoData) level.all()[i] = heard_.all()[i];
   }
@@ -183,25 +198,25 @@ PingMask PingRepeater::under_fading(std::uint64_t seed) {
     std::copy(ping_.sv.all().begin(), ping_.sv.all().end(), sv_.all().begin());
     std::copy(ping_.filtered.all().begin(), ping_.filtered.all().end(), filtered_.all().begin());
   }
-  const Array3<std::int16_t> echo = field_->draw(seed);
-  Array3<std::int16_t> later(echo.shape());
-  const Array3<SampleFlags> sound(echo.shape());
-  median_into(echo.view(), sound.view(), median_, later.view());
-  const double median_counts = counts_from_db(kMedianOfMean_db);
+  Array3<std::int16_t> sv = field_->draw(seed);
+  for (std::size_t i = 0; i < sv.all().size(); ++i) {
+    const std::int16_t level = level_.all()[i];
+    sv.all()[i] = level == kNoData ? kNoData : clamped(level + echo_of_level_ + sv.all()[i]);
+  }
+  Array3<std::int16_t> later(sv.shape());
+  const Array3<SampleFlags> sound(sv.shape());
+  median_into(sv.view(), sound.view(), median_, later.view());
+  const auto first = static_cast<std::size_t>(box_.first_sample);
   for (int f = 0; f < box_.fans(); ++f) {
     for (int b = 0; b < box_.beams(); ++b) {
-      const int row = (box_.first_fan + f) * shape.beams + box_.first_beam + b;
-      const auto level = level_.view().row(f, b);
+      const auto sv_of_ping = sv_.view().row(box_.first_fan + f, box_.first_beam + b).subspan(first);
+      const auto filtered = filtered_.view().row(box_.first_fan + f, box_.first_beam + b).subspan(first);
+      const auto faded = sv.view().row(f, b);
       const auto again = later.view().row(f, b);
-      const auto sv = sv_.view().row(row);
-      const auto filtered = filtered_.view().row(row);
-      for (std::size_t s = 0; s < level.size(); ++s) {
-        const std::size_t i = static_cast<std::size_t>(box_.first_sample) + s;
-        const double faded = level[s] - median_counts + again[s];
-        again[s] = level[s];
-        if (level[s] == kNoData) continue;
-        again[s] = filtered[i] = clamped(faded);
-        if (sv[i] != kNoData) sv[i] = clamped(level[s] + echo_of_level_ + echo(f, b, static_cast<int>(s)));
+      for (std::size_t s = 0; s < faded.size(); ++s) {
+        if (again[s] == kNoData || filtered[s] == kNoData) again[s] = filtered[s];
+        filtered[s] = again[s];
+        if (sv_of_ping[s] != kNoData && faded[s] != kNoData) sv_of_ping[s] = faded[s];
       }
     }
   }

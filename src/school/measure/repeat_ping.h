@@ -27,6 +27,9 @@ class PingRepeater {
 
  private:
   [[nodiscard]] Array3<std::int16_t> heard_in_box() const;
+  /// The level that new fading is put on, and that is filtered then. What is left in it of this ping's own fading would add
+  /// to the new one: it is filtered along each beam again. What the filter takes from edges is put on it first.
+  /// source  twicing (Tukey 1977, Exploratory data analysis, chapter 16)
   [[nodiscard]] Array3<std::int16_t> smoothed() const;
   /// Members where the filtered level is this (of the box) and the threshold that.
   [[nodiscard]] PingMask mask_again(View3<const std::int16_t> later, double threshold_db) const;
@@ -47,7 +50,7 @@ class PingRepeater {
   Array3<std::uint8_t> members_;  ///< confidence, 0 = no member
   Array3<std::uint8_t> next_to_;  ///< 1 = within a beam, a fan and half the filter of a member
   Array3<std::int16_t> heard_;    ///< the filtered level
-  Array3<std::int16_t> level_;    ///< that filtered again: what is left of this ping's own fading would add to the new one
+  Array3<std::int16_t> level_;    ///< what new fading is put on
   std::optional<FadingField> field_;
   double echo_of_level_ = 0.0;
 };
