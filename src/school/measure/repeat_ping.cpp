@@ -221,7 +221,8 @@ PingMask PingRepeater::under_fading(std::uint64_t seed) {
     }
   }
   const View3<const std::int16_t> now = std::as_const(later).view();
-  return mask_again(now, ping_.threshold_db + loud_part_db(now));
+  threshold_db_ = ping_.threshold_db + loud_part_db(now);
+  return mask_again(now, threshold_db_);
 }
 
 PingMask PingRepeater::at_threshold(double step_db) const {

@@ -18,10 +18,12 @@ class PingRepeater {
  public:
   /// Input and mask are borrowed.
   PingRepeater(const MeasureInput& ping, const PingMask& mask, const MedianParams& median, double tolerance_db);
-  /// The mask under other fading. sv() and filtered() then are the ping so; samples far from the school are as they were.
+  /// The mask under other fading. sv(), filtered() and threshold_db() then are the ping's; samples far from the school are as
+  /// they were.
   [[nodiscard]] PingMask under_fading(std::uint64_t seed);
   [[nodiscard]] View3<const std::int16_t> sv() const { return sv_.view(); }
   [[nodiscard]] View3<const std::int16_t> filtered() const { return filtered_.view(); }
+  [[nodiscard]] double threshold_db() const { return threshold_db_; }
   /// The mask if its threshold lay so much higher.
   [[nodiscard]] PingMask at_threshold(double step_db) const;
 
@@ -53,6 +55,7 @@ class PingRepeater {
   Array3<std::int16_t> level_;    ///< what new fading is put on
   std::optional<FadingField> field_;
   double echo_of_level_ = 0.0;
+  double threshold_db_ = kUnknown;
 };
 
 }  // namespace sonar

@@ -139,6 +139,7 @@ Repeats measure_repeats(const MeasureInput& ping, const PingMask& mask, const Me
     MeasureInput input = ping;
     input.sv = repeater.sv();
     input.filtered = repeater.filtered();
+    input.threshold_db = repeater.threshold_db();
     add(input, other);
   }
   for (const double step_db : {-params.threshold_db, params.threshold_db}) {
