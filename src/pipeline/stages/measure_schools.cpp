@@ -94,7 +94,8 @@ MeasuredMask measure_one(const Engine& engine, const StagedPing& ping, const std
   row.time_utc = at.time;
   const Recipe& recipe = engine.recipe();
   Repeats repeats = measure_repeats(input, all[index].in_ping->mask, engine.filter_box(), recipe.detect.tolerance_db,
-                                    static_cast<std::uint64_t>(at.time), recipe.measure, recipe.errors);
+                                    static_cast<std::uint64_t>(at.time), all[index].school->pings.size(),
+                                    recipe.measure, recipe.errors);
   return {std::move(school), faulty_members(input, all[index].in_ping->mask), std::move(repeats)};
 }
 
@@ -106,6 +107,9 @@ Hash128 key_of(const Engine& engine, std::int64_t ping_index, const std::vector<
     const PingMask& mask = one.in_ping->mask;
     hasher.add(std::as_bytes(std::span(&one.school->decided.school_id, 1)));
     hasher.add(std::as_bytes(std::span(&one.in_ping->threshold_db, 1)));
+    if (!engine.recipe().errors.enabled) continue;
+    const int fadings = fadings_of_ping(one.school->pings.size());
+    hasher.add(std::as_bytes(std::span(&fadings, 1)));
     hasher.add(std::as_bytes(std::span(mask.runs)));
     hasher.add(std::as_bytes(std::span(mask.confidence)));
   }

@@ -141,9 +141,6 @@ SchoolPingRow measure_row(const MeasureInput& ping, const PingMask& mask, const 
   measure_place(ping, shape, row);
   measure_extents(ping, mask, shape, row);
   measure_echo(ping, mask, row);
-  const TotalEcho total = total_echo(ping, mask, ping.claims);
-  row.backscatter_total_m2 = total.backscatter_m2;
-  row.backscatter_total_se_m2 = total.se_m2;
   if (ping.seabed != nullptr) {
     // The seabed is a plane in the sector; its depth under the school is that of the levelled place.
     const double depth =
@@ -159,7 +156,11 @@ MeasuredSchool measure(const MeasureInput& ping, const PingMask& mask, const Mea
   MeasuredSchool out;
   out.row = measure_row(ping, mask, params);
   // A range says that a voxel of the mask has a volume.
-  if (std::isfinite(out.row.range_m)) out.body = body_echo(ping, mask, params);
+  if (!std::isfinite(out.row.range_m)) return out;
+  const TotalEcho total = total_echo(ping, mask, ping.claims);
+  out.row.backscatter_total_m2 = total.backscatter_m2;
+  out.row.backscatter_total_se_m2 = total.se_m2;
+  out.body = body_echo(ping, mask, params);
   return out;
 }
 

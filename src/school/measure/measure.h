@@ -14,7 +14,7 @@ namespace sonar {
 /// Which members are faulty samples and take no part in Sv, in the mask's order.
 [[nodiscard]] std::vector<bool> faulty_members(const MeasureInput& ping, const PingMask& mask);
 
-/// The row alone, without what correct_sizes() needs.
+/// The row alone, without backscatter_total and what correct_sizes() needs.
 [[nodiscard]] SchoolPingRow measure_row(const MeasureInput& ping, const PingMask& mask, const MeasureParams& params);
 
 /// A school in one ping.

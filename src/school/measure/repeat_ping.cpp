@@ -8,34 +8,14 @@
 
 #include "base/units.h"
 #include "school/detect/noise_level.h"
-#include "school/fading.h"
 #include "school/grow/grow.h"
 #include "school/measure/echo_row.h"
 
 namespace sonar {
 namespace {
 
-/// splitmix64 (Steele, Lea & Flood 2014): a number for each number, whatever the order they are asked in.
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15ULL;
-  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9ULL;
-  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebULL;
-  return x ^ (x >> 31U);
-}
-/// In (0, 1).
-double uniform(std::uint64_t x) { return (static_cast<double>(mixed(x) >> 12U) + 0.5) / 4503599627370496.0; }
-
-/// Mean length of blocks of k and k + 1 voxels, so that the mean square over the mean is the wanted number of voxels that
-/// fade as one: the variance of a sum then is right.
-double block_length(double alike) {
-  const double k = std::floor(alike);
-  return k * (k + 1.0) / (2.0 * k + 1.0 - alike);
-}
-
-/// Number of the block that a voxel lies in, counted from the grid's origin.
-std::uint64_t block_of(int voxel, double length, double offset) {
-  return static_cast<std::uint64_t>(std::floor((voxel + offset * length) / length) + 1.0);
-}
+/// A filter that runs twice takes off a body's corners twice; what the second time takes is put on before it, up to this.
+constexpr double kMostRaised_db = 6.0;
 
 std::int16_t clamped(double counts) {
   return static_cast<std::int16_t>(
@@ -47,10 +27,9 @@ std::int16_t clamped(double counts) {
 PingRepeater::PingRepeater(const MeasureInput& ping, const PingMask& mask, const MedianParams& median,
                            double tolerance_db)
     : ping_(ping), mask_(mask), median_(median), tolerance_db_(tolerance_db) {
-  constexpr int kBeams = 4;  // what the whole school's echo is summed over
-  constexpr int kSamples = 32;
+  // What may become a member lies a beam, a fan and half the filter off, and the filter looks as far again.
   const Shape3 shape = ping.sv.shape();
-  box_ = box_of(mask, shape.beams).enlarged(kBeams, kBeams, kSamples).clipped(shape);
+  box_ = box_of(mask, shape.beams).enlarged(2, 2, median.kernel_samples).clipped(shape);
   const Shape3 size{box_.fans(), box_.beams(), box_.samples()};
   members_ = Array3<std::uint8_t>(size);
   next_to_ = Array3<std::uint8_t>(size);
@@ -69,12 +48,44 @@ PingRepeater::PingRepeater(const MeasureInput& ping, const PingMask& mask, const
       }
     }
   }
-  const int middle = mask.runs[mask.runs.size() / 2].row;
-  const VoxelsAlike alike = voxels_alike_each_way(*ping.grid, ping.sector->range().spacing_m, ping.pulse_m, middle);
-  alike_[0] = alike.fans;
-  alike_[1] = alike.beams;
-  alike_[2] = alike.samples;
+  field_.emplace(*ping.grid, box_, ping.sector->range().spacing_m, ping.pulse_m);
+  heard_ = heard_in_box();
+  level_ = smoothed();
   echo_of_level_ = echo_of_level();
+}
+
+Array3<std::int16_t> PingRepeater::heard_in_box() const {
+  Array3<std::int16_t> heard(members_.shape());
+  for (int f = 0; f < box_.fans(); ++f) {
+    for (int b = 0; b < box_.beams(); ++b) {
+      const auto row = ping_.filtered.row(box_.first_fan + f, box_.first_beam + b);
+      const auto from =
+          row.subspan(static_cast<std::size_t>(box_.first_sample), static_cast<std::size_t>(box_.samples()));
+      std::copy(from.begin(), from.end(), heard.view().row(f, b).begin());
+    }
+  }
+  return heard;
+}
+
+Array3<std::int16_t> PingRepeater::smoothed() const {
+  const double limit = counts_from_db(kMostRaised_db);
+  const Array3<SampleFlags> sound(heard_.shape());
+  Array3<std::int16_t> again(heard_.shape());
+  median_into(heard_.view(), sound.view(), median_, again.view());
+  for (std::size_t i = 0; i < again.all().size(); ++i) {
+    const std::int16_t heard = heard_.all()[i];
+    std::int16_t& raised = again.all()[i];
+    raised = raised == kNoData || heard == kNoData ? heard
+                                                   : clamped(heard + std::clamp(1.0 * heard - raised, -limit, limit));
+  }
+  MedianParams along = median_;
+  along.kernel_fans = along.kernel_beams = 1;
+  Array3<std::int16_t> level(heard_.shape());
+  median_into(again.view(), sound.view(), along, level.view());
+  for (std::size_t i = 0; i < level.all().size(); ++i) {
+    if (level.all()[i] == kNoData || heard_.all()[i] == kNoData) level.all()[i] = heard_.all()[i];
+  }
+  return level;
 }
 
 double PingRepeater::echo_of_level() const {
@@ -83,61 +94,34 @@ double PingRepeater::echo_of_level() const {
   for (const Run& run : mask_.runs) {
     const EchoRow row(ping_, run.row, 1.0);
     const auto sv = ping_.sv.row(run.row);
-    const auto filtered = ping_.filtered.row(run.row);
     const int beams = ping_.sector->beams();
+    const auto level_of_row = level_.view().row(run.row / beams - box_.first_fan, run.row % beams - box_.first_beam);
     const double solid_angle = ping_.sector->solid_angle_sr(run.row / beams, run.row % beams);
     for (int s = run.first_sample; s < run.end(); ++s) {
       const auto i = static_cast<std::size_t>(s);
-      if (!row.heard(s) || filtered[i] == kNoData) continue;
+      const std::int16_t told = level_of_row[static_cast<std::size_t>(s - box_.first_sample)];
+      if (!row.heard(s) || told == kNoData) continue;
       const double volume = solid_angle * ping_.sector->shell_m3_per_sr(s);
       echo += volume * linear_from_count(sv[i]);
-      level += volume * linear_from_count(filtered[i]);
+      level += volume * linear_from_count(told);
     }
   }
   return counts_from_db(echo > 0.0 && level > 0.0 ? db_from_linear(echo / level) : -kMedianOfMean_db);
 }
 
-Array3<std::int16_t> PingRepeater::fading(std::uint64_t seed) const {
-  Array3<std::int16_t> counts(members_.shape());
-  const std::uint64_t key = mixed(seed);
-  std::array<double, 3> length{};
-  std::array<double, 3> offset{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    length[k] = block_length(alike_[k]);
-    offset[k] = uniform(key + k + 1);
-  }
-  for (int f = 0; f < box_.fans(); ++f) {
-    const std::uint64_t of_fan = mixed(key ^ block_of(box_.first_fan + f, length[0], offset[0]));
-    for (int b = 0; b < box_.beams(); ++b) {
-      const std::uint64_t of_beam = mixed(of_fan ^ block_of(box_.first_beam + b, length[1], offset[1]));
-      std::uint64_t last = 0;
-      std::int16_t echo = 0;
-      const auto row = counts.row(f, b);
-      for (int s = 0; s < box_.samples(); ++s) {
-        const std::uint64_t block = block_of(box_.first_sample + s, length[2], offset[2]);
-        if (s == 0 || block != last)
-          echo = clamped(counts_from_db(db_from_linear(-std::log(uniform(of_beam ^ block)))));
-        last = block;
-        row[static_cast<std::size_t>(s)] = echo;
-      }
-    }
-  }
-  return counts;
-}
-
-double PingRepeater::loud_part_db(View3<const std::int16_t> change) const {
+double PingRepeater::loud_part_db(View3<const std::int16_t> later) const {
   constexpr double kLoud = 0.95;
-  std::vector<double> before;
-  std::vector<double> after;
+  std::vector<std::int16_t> before;
+  std::vector<std::int16_t> after;
   for (const Run& run : mask_.runs) {
     const auto counts = ping_.filtered.row(run.row);
-    const auto moved = change.row(run.row / ping_.sv.shape().beams - box_.first_fan,
-                                  run.row % ping_.sv.shape().beams - box_.first_beam);
+    const auto again = later.row(run.row / ping_.sv.shape().beams - box_.first_fan,
+                                 run.row % ping_.sv.shape().beams - box_.first_beam);
     for (int s = run.first_sample; s < run.end(); ++s) {
       const std::int16_t count = counts[static_cast<std::size_t>(s)];
       if (count == kNoData) continue;
       before.push_back(count);
-      after.push_back(count + moved[static_cast<std::size_t>(s - box_.first_sample)]);
+      after.push_back(again[static_cast<std::size_t>(s - box_.first_sample)]);
     }
   }
   if (before.empty()) return 0.0;
@@ -147,7 +131,7 @@ double PingRepeater::loud_part_db(View3<const std::int16_t> change) const {
   return db_from_counts(after[static_cast<std::size_t>(rank)] - before[static_cast<std::size_t>(rank)]);
 }
 
-PingMask PingRepeater::moved_mask(View3<const std::int16_t> change, double threshold_db) const {
+PingMask PingRepeater::mask_again(View3<const std::int16_t> later, double threshold_db) const {
   const int beams = ping_.sv.shape().beams;
   const double before = counts_from_db(ping_.threshold_db);
   const double now = counts_from_db(threshold_db);
@@ -158,7 +142,7 @@ PingMask PingRepeater::moved_mask(View3<const std::int16_t> change, double thres
       const int row = (box_.first_fan + f) * beams + box_.first_beam + b;
       const auto level = ping_.filtered.row(row);
       const auto flags = ping_.flags.row(row);
-      const auto moved = change.row(f, b);
+      const auto again = later.row(f, b);
       PingMask run;
       bool holds = false;  // a member of old: nothing grows apart from the school
       const auto end_run = [&] {
@@ -174,11 +158,12 @@ PingMask PingRepeater::moved_mask(View3<const std::int16_t> change, double thres
         const auto i = static_cast<std::size_t>(sample);
         const std::uint8_t confidence = members_(f, b, s);
         const bool was = confidence > 0;
-        const bool above = level[i] != kNoData && level[i] >= before;
-        const double later = level[i] + moved[static_cast<std::size_t>(s)];
+        const bool heard = level[i] != kNoData;
+        const bool above = heard && level[i] >= before;
+        const std::int16_t level_again = again[static_cast<std::size_t>(s)];
         bool is = was;
         // What stands against its threshold a human decided, or what lay beside it did: it stays.
-        if (was == above && level[i] != kNoData) is = later >= now;
+        if (was == above && heard) is = level_again >= now;
         if (!was && is) {
           const bool taken = ping_.others != nullptr && confidence_at(*ping_.others, row, sample) > 0;
           is = next_to_(f, b, s) > 0 && !any(flags[i] & kNeverMember) && !taken;
@@ -189,9 +174,11 @@ PingMask PingRepeater::moved_mask(View3<const std::int16_t> change, double thres
         }
         if (run.runs.empty()) run.runs.push_back({row, sample, 0});
         ++run.runs.back().count;
-        const double below = was ? tolerance * std::sqrt(1.0 - confidence / 255.0) : tolerance;
-        const double moved_below = std::clamp(below - moved[static_cast<std::size_t>(s)], 0.0, tolerance) / tolerance;
-        run.confidence.push_back(quantised_confidence(1.0 - moved_below * moved_below));
+        // how far below the reference that its confidence counts from
+        double below = tolerance - (level_again - now);
+        if (was) below = tolerance * std::sqrt(1.0 - confidence / 255.0) - (heard ? level_again - level[i] : 0.0);
+        const double share = std::clamp(below / tolerance, 0.0, 1.0);
+        run.confidence.push_back(quantised_confidence(1.0 - share * share));
         const bool beside = (b > 0 && members_(f, b - 1, s) > 0) ||
                             (b + 1 < box_.beams() && members_(f, b + 1, s) > 0) ||
                             (f > 0 && members_(f - 1, b, s) > 0) || (f + 1 < box_.fans() && members_(f + 1, b, s) > 0);
@@ -211,32 +198,35 @@ PingMask PingRepeater::under_fading(std::uint64_t seed) {
     std::copy(ping_.sv.all().begin(), ping_.sv.all().end(), sv_.all().begin());
     std::copy(ping_.filtered.all().begin(), ping_.filtered.all().end(), filtered_.all().begin());
   }
-  const Array3<std::int16_t> echo = fading(seed);
-  Array3<std::int16_t> change(echo.shape());
-  const Array3<SampleFlags> sound(echo.shape());
-  median_into(echo.view(), sound.view(), median_, change.view());
-  const double median_counts = counts_from_db(kMedianOfMean_db);
-  for (std::int16_t& one : change.all()) one = clamped(one - median_counts);
+  Array3<std::int16_t> sv = field_->draw(seed);
+  for (std::size_t i = 0; i < sv.all().size(); ++i) {
+    const std::int16_t level = level_.all()[i];
+    sv.all()[i] = level == kNoData ? kNoData : clamped(level + echo_of_level_ + sv.all()[i]);
+  }
+  Array3<std::int16_t> later(sv.shape());
+  const Array3<SampleFlags> sound(sv.shape());
+  median_into(sv.view(), sound.view(), median_, later.view());
+  const auto first = static_cast<std::size_t>(box_.first_sample);
   for (int f = 0; f < box_.fans(); ++f) {
     for (int b = 0; b < box_.beams(); ++b) {
-      const int row = (box_.first_fan + f) * shape.beams + box_.first_beam + b;
-      const auto was = ping_.filtered.row(row);
-      const auto sv = sv_.view().row(row);
-      const auto filtered = filtered_.view().row(row);
-      for (int s = 0; s < box_.samples(); ++s) {
-        const auto i = static_cast<std::size_t>(box_.first_sample + s);
-        if (was[i] == kNoData) continue;
-        if (sv[i] != kNoData) sv[i] = clamped(was[i] + echo_of_level_ + echo(f, b, s));
-        filtered[i] = clamped(was[i] + change(f, b, s));
+      const auto sv_of_ping = sv_.view().row(box_.first_fan + f, box_.first_beam + b).subspan(first);
+      const auto filtered = filtered_.view().row(box_.first_fan + f, box_.first_beam + b).subspan(first);
+      const auto faded = sv.view().row(f, b);
+      const auto again = later.view().row(f, b);
+      for (std::size_t s = 0; s < faded.size(); ++s) {
+        if (again[s] == kNoData || filtered[s] == kNoData) again[s] = filtered[s];
+        filtered[s] = again[s];
+        if (sv_of_ping[s] != kNoData && faded[s] != kNoData) sv_of_ping[s] = faded[s];
       }
     }
   }
-  return moved_mask(std::as_const(change).view(), ping_.threshold_db + loud_part_db(std::as_const(change).view()));
+  const View3<const std::int16_t> now = std::as_const(later).view();
+  threshold_db_ = ping_.threshold_db + loud_part_db(now);
+  return mask_again(now, threshold_db_);
 }
 
 PingMask PingRepeater::at_threshold(double step_db) const {
-  const Array3<std::int16_t> none(members_.shape());
-  return moved_mask(none.view(), ping_.threshold_db + step_db);
+  return mask_again(heard_.view(), ping_.threshold_db + step_db);
 }
 
 }  // namespace sonar

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <string_view>
+#include <utility>
 
 #include "base/check.h"
 #include "base/units.h"
+#include "school/measure/fading_field.h"
 #include "school/measure/measure.h"
 #include "school/measure/repeat_ping.h"
 
@@ -44,12 +47,24 @@ FigureValues read_figures(Row row) {
   return out;
 }
 
-/// The school's figures if all its pings were measured in this way.
-FigureValues repeated(std::span<const SchoolPingRow> rows, std::span<const Repeats* const> repeats, std::size_t which,
+/// Which of a ping's repeats under n fadings goes into the school's: each as often, in another order for each ping.
+std::size_t turned(std::size_t k, std::size_t ping, std::size_t n) {
+  std::array<std::size_t, kFadings> order{};
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::uint64_t random = mixed(ping * kFadings + k / n);
+  for (std::size_t i = n; i > 1; --i) {  // Fisher & Yates
+    std::swap(order[i - 1], order[random % i]);
+    random /= i;
+  }
+  return order[k % n];
+}
+
+/// The school's figures if all its pings were measured in other ways. which(ping) = index of its repeat
+FigureValues repeated(std::span<const SchoolPingRow> rows, std::span<const Repeats* const> repeats, const auto& which,
                       const SummariseParams& summary) {
   std::vector<SchoolPingRow> others(rows.begin(), rows.end());
   for (std::size_t i = 0; i < others.size(); ++i) {
-    FigureWriter writer{(*repeats[i])[which]};
+    FigureWriter writer{(*repeats[i])[which(i)]};
     columns(writer, others[i]);
     // summarise() takes the echo of pings that know a corrected volume, which a repeat does not change.
   }
@@ -57,14 +72,16 @@ FigureValues repeated(std::span<const SchoolPingRow> rows, std::span<const Repea
 }
 
 /// Their standard deviation, so much wider that 1.96 of it are the 95 % of Student's t for as many.
-double spread(const std::vector<double>& values) {
+/// fadings  of a ping: where they are few, each comes up several times and the mean of a ping's hardly differs
+double spread(const std::vector<double>& values, std::size_t fadings) {
   constexpr double kStudent = 2.1314 / 1.95996;  // 15 degrees of freedom
   if (2 * values.size() < kFadings) return kUnknown;
   double mean = 0.0;
   for (const double v : values) mean += v / static_cast<double>(values.size());
   double square = 0.0;
   for (const double v : values) square += (v - mean) * (v - mean);
-  return kStudent * std::sqrt(square / static_cast<double>(values.size() - 1));
+  const auto n = static_cast<double>(fadings);
+  return kStudent * std::sqrt(square / static_cast<double>(values.size()) * n / (n - 1.0));
 }
 
 bool is_level(std::string_view figure) { return figure.starts_with("sv_") && figure.ends_with("_db"); }
@@ -102,7 +119,8 @@ FigureValues figures_of(const SchoolPingRow& row) { return read_figures(row); }
 FigureValues figures_of(const SchoolRow& row) { return read_figures(row); }
 
 Repeats measure_repeats(const MeasureInput& ping, const PingMask& mask, const MedianParams& median, double tolerance_db,
-                        std::uint64_t seed, const MeasureParams& measure, const ErrorParams& params) {
+                        std::uint64_t seed, std::size_t pings, const MeasureParams& measure,
+                        const ErrorParams& params) {
   Repeats repeats;
   // Unfiltered, the echo's own fading cannot be told from what fades.
   if (!params.enabled || !median.enabled || ping.filtered.data() == nullptr || std::isnan(ping.threshold_db)) {
@@ -115,11 +133,13 @@ Repeats measure_repeats(const MeasureInput& ping, const PingMask& mask, const Me
                    [](double v) { return static_cast<float>(v); });
   };
   PingRepeater repeater(ping, mask, median, tolerance_db);
-  for (std::uint64_t k = 0; k < kFadings; ++k) {
-    const PingMask other = repeater.under_fading(seed + k);
+  const int fadings = fadings_of_ping(pings);
+  for (int k = 0; k < fadings; ++k) {
+    const PingMask other = repeater.under_fading(seed + static_cast<std::uint64_t>(k));
     MeasureInput input = ping;
     input.sv = repeater.sv();
     input.filtered = repeater.filtered();
+    input.threshold_db = repeater.threshold_db();
     add(input, other);
   }
   for (const double step_db : {-params.threshold_db, params.threshold_db}) {
@@ -134,11 +154,22 @@ FigureValues school_errors(std::span<const SchoolPingRow> rows, std::span<const 
                            const SummariseParams& summary, const ErrorParams& params) {
   SONAR_CHECK(rows.size() == repeats.size() && !rows.empty());
   FigureValues errors = unknown_figures();
-  if (std::any_of(repeats.begin(), repeats.end(), [](const Repeats* one) { return one->size() != kRepeats; })) {
-    return errors;
+  std::size_t fadings = kFadings;  // of the ping that has fewest
+  for (const Repeats* one : repeats) {
+    if (one->size() < kLeastFadings + 2) return errors;
+    fadings = std::min(fadings, one->size() - 2);
   }
   std::vector<FigureValues> others;
-  for (std::size_t k = 0; k < kRepeats; ++k) others.push_back(repeated(rows, repeats, k, summary));
+  for (std::size_t k = 0; k < kFadings; ++k) {
+    const auto which = [&](std::size_t ping) { return turned(k, ping, repeats[ping]->size() - 2); };
+    others.push_back(repeated(rows, repeats, which, summary));
+  }
+  const auto last = [&](std::size_t back) {
+    return repeated(
+        rows, repeats, [&](std::size_t ping) { return repeats[ping]->size() - back; }, summary);
+  };
+  const FigureValues below = last(2);
+  const FigureValues above = last(1);
   const SchoolRow school = summarise(rows, summary);
   const FigureValues figures = figures_of(school);
   for (std::size_t i = 0; i < kErrorCount; ++i) {
@@ -146,9 +177,9 @@ FigureValues school_errors(std::span<const SchoolPingRow> rows, std::span<const 
     for (std::size_t k = 0; k < kFadings; ++k) {
       if (std::isfinite(others[k][i])) known.push_back(others[k][i]);
     }
-    const double by_threshold = 0.5 * (others[kFadings + 1][i] - others[kFadings][i]);
+    const double by_threshold = 0.5 * (above[i] - below[i]);
     const double common = common_error(kErrorColumns[i], figures[i], school, params);
-    errors[i] = std::sqrt(std::pow(spread(known), 2) + by_threshold * by_threshold + common * common);
+    errors[i] = std::sqrt(std::pow(spread(known, fadings), 2) + by_threshold * by_threshold + common * common);
   }
   return errors;
 }

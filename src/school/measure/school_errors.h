@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -62,31 +64,37 @@ void describe(Visitor& v, ErrorParams& p) {
        .text = "Standard error of the elevation of a beam, by roll, pitch and mounting; it is the error of depths."});
 }
 
-/// So many other fadings, and two other thresholds, below and above.
+/// So many other fadings of a school.
 inline constexpr int kFadings = 16;
-inline constexpr int kRepeats = kFadings + 2;
+/// So many of each of its pings: several pings share them out.
+inline constexpr int kLeastFadings = 4;
+[[nodiscard]] constexpr int fadings_of_ping(std::size_t pings) {
+  const auto share = kFadings / static_cast<int>(std::clamp<std::size_t>(pings, 1, kFadings));
+  return std::max(share, kLeastFadings);
+}
 
-/// Figures of one school in one ping as they would come out under other fading, and under other thresholds. Empty = not
-/// known.
+/// Figures of one school in one ping as they would come out under other fading, and last under two other thresholds, below
+/// and above. Empty = not known.
 using Repeats = std::vector<std::array<float, kErrorCount>>;
 
 /// Figures that have a standard error, in the order of kErrorColumns.
 [[nodiscard]] FigureValues figures_of(const SchoolPingRow& row);
 [[nodiscard]] FigureValues figures_of(const SchoolRow& row);
 
-/// Measures a school again, kRepeats times, by measure() itself.
-/// Fading: the echo is taken as its median-filtered level times exponential fading, which neighbouring voxels share as far as
-/// voxels_alike() tells. The mask moves with the filtered level of the same fading, where that crosses the mask's threshold;
-/// a voxel that stands against the threshold (a human's) stays. The threshold moves with the school's loud part.
+/// Measures a school again, fadings_of_ping() + 2 times, by measure_row() itself.
+/// Fading: the echo is taken as its median-filtered level, smoothed, times exponential fading, which neighbouring voxels share as
+/// they do (fading_field.h). That is filtered; the mask is where it lies above the mask's threshold, beside the mask that
+/// was; a voxel that stands against the threshold (a human's) stays. The threshold moves with the school's loud part.
 /// median   the filter that the mask was found in
 /// tolerance_db  what confidences count from
 /// seed     of the ping: the same for all its schools
+/// pings    of the school
 /// threads  pure
-/// cost     kRepeats measurings, and a median of the school's surroundings for each
+/// cost     so many measurings, each with a median of the school's surroundings
 /// source   parametric bootstrap (Efron & Tibshirani 1993, section 6.5)
 [[nodiscard]] Repeats measure_repeats(const MeasureInput& ping, const PingMask& mask, const MedianParams& median,
-                                      double tolerance_db, std::uint64_t seed, const MeasureParams& measure,
-                                      const ErrorParams& params);
+                                      double tolerance_db, std::uint64_t seed, std::size_t pings,
+                                      const MeasureParams& measure, const ErrorParams& params);
 
 /// Standard errors of a school's figures, in the order of kErrorColumns; NaN = unknown. Fading differs from ping to ping;
 /// threshold, calibration, sound speed and tilt are alike in all.

@@ -135,12 +135,14 @@ std::map<int, std::array<Sum, 4>> sums_of(const MeasureInput& ping, const Surrou
   std::map<int, std::array<Sum, 4>> rows;
   std::array<Sum, 4>* sums = nullptr;
   int row_at = -1;
+  double solid_angle = 0.0;
   RowBackground noise(ping.background, 0);
   surroundings.each([&](int row, int sample, Surroundings::Zone zone) {
     const auto i = static_cast<std::size_t>(sample);
     if (row != row_at) {
       row_at = row;
       noise = RowBackground(ping.background, row);
+      solid_angle = sector.solid_angle_sr(row / sector.beams(), row % sector.beams());
       sums = &rows[row];
     }
     const SampleFlags flags = ping.flags.row(row)[i];
@@ -150,8 +152,7 @@ std::map<int, std::array<Sum, 4>> sums_of(const MeasureInput& ping, const Surrou
     if (zone != Surroundings::kMembers && claimed == EchoClaims::kMember) return;
     if (zone == Surroundings::kWater && claimed > 0) return;
     const double share = zone == Surroundings::kRound && claimed > 1 ? 1.0 / claimed : 1.0;
-    const double volume =
-        share * sector.solid_angle_sr(row / sector.beams(), row % sector.beams()) * sector.shell_m3_per_sr(sample);
+    const double volume = share * solid_angle * sector.shell_m3_per_sr(sample);
     Sum& sum = (*sums)[zone];
     sum.whole_m3 += volume;
     const std::int16_t count = ping.sv.row(row)[i];

@@ -51,6 +51,13 @@ Cell number_cell(double value, int decimals) {
   return {fmt::format("{:.{}f}", value, decimals), value, {}, decimals};
 }
 
+Cell with_error(Cell cell, double se, int decimals) {
+  if (!std::isfinite(se) || cell.text.empty()) return cell;
+  cell.brief = cell.text;
+  cell.text += fmt::format(" \u00B1 {:.{}f}", se, decimals);
+  return cell;
+}
+
 Cell broad_cell(double value) {
   if (std::isnan(value)) return {};
   return {fmt::format("{:.3g}", value), value};

@@ -15,6 +15,8 @@ namespace sonar {
 [[nodiscard]] Cell count_cell(std::int64_t count);
 /// NaN = unknown: an empty cell.
 [[nodiscard]] Cell number_cell(double value, int decimals);
+/// With its standard error behind it: "63.2 \u00B1 1.4". NaN = unknown: the cell as it is.
+[[nodiscard]] Cell with_error(Cell cell, double se, int decimals);
 /// Three significant digits, for quantities that go over many powers of ten.
 [[nodiscard]] Cell broad_cell(double value);
 /// The same cell in the unit that a user reads; what is neither a length nor a speed stays.

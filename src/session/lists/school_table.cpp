@@ -2,7 +2,9 @@
 #include "session/lists/school_table.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "base/units.h"
@@ -20,6 +22,20 @@ double figure(const SurveySchool& school) {
 template <double SchoolDescriptors::*member, int decimals>
 Cell descriptor(const SurveySchool& school) {
   return number_cell(school.row == nullptr ? kUnknown : school.row->*member, decimals);
+}
+
+constexpr std::size_t error_at(std::string_view figure) {
+  return static_cast<std::size_t>(std::find_if(kErrorColumns.begin(), kErrorColumns.end(),
+                                               [&](const ErrorColumn& one) { return one.figure == figure; }) -
+                                  kErrorColumns.begin());
+}
+
+/// A figure of schools.csv and its standard error, which runs tell that were asked to. error = error_at(its column)
+template <auto member, int decimals, std::size_t error>
+Cell with_error_of(const SurveySchool& school) {
+  static_assert(error < kErrorCount);
+  if (school.row == nullptr) return {};
+  return with_error(number_cell(school.row->*member, decimals), school.row->se[error], decimals);
 }
 
 std::vector<ColumnOf<SurveySchool>> made_columns() {
@@ -44,17 +60,15 @@ std::vector<ColumnOf<SurveySchool>> made_columns() {
          return there.empty() ? Cell{} : time_cell(navigation[static_cast<std::size_t>(there.front().ping_index)].time);
        }},
       {{"Pings", "", "pings in which it was seen", true}, [](const S& s) { return count_cell(s.pings()); }},
-      {{"Depth", "m", "of its centre below the sea surface", true},
-       [](const S& s) { return number_cell(figure<&R::depth_m>(s), 1); }},
-      {{"Volume", "m\u00B3", "as the beams see it", true},
-       [](const S& s) { return number_cell(figure<&R::volume_m3>(s), 0); }},
+      {{"Depth", "m", "of its centre below the sea surface", true}, with_error_of<&R::depth_m, 1, error_at("depth_m")>},
+      {{"Volume", "m\u00B3", "as the beams see it", true}, with_error_of<&R::volume_m3, 0, error_at("volume_m3")>},
       {{"Volume corrected", "m\u00B3", "with beam width and pulse length removed", true},
        [](const S& s) { return number_cell(figure<&R::volume_corrected_m3>(s), 0); }},
-      {{"Length", "m", "", true}, [](const S& s) { return number_cell(figure<&R::length_m>(s), 1); }},
-      {{"Width", "m", "", true}, [](const S& s) { return number_cell(figure<&R::width_m>(s), 1); }},
-      {{"Height", "m", "", true}, [](const S& s) { return number_cell(figure<&R::height_m>(s), 1); }},
+      {{"Length", "m", "", true}, with_error_of<&R::length_m, 1, error_at("length_m")>},
+      {{"Width", "m", "", true}, with_error_of<&R::width_m, 1, error_at("width_m")>},
+      {{"Height", "m", "", true}, with_error_of<&R::height_m, 1, error_at("height_m")>},
       {{"Sv", "dB re 1 m\u207B\u00B9", "mean volume backscattering strength", true},
-       [](const S& s) { return number_cell(figure<&R::sv_mean_db>(s), 1); }},
+       with_error_of<&R::sv_mean_db, 1, error_at("sv_mean_db")>},
       {{"SNR", "dB", "signal-to-noise ratio", true}, [](const S& s) { return number_cell(s.snr_db(), 1); }},
       {{"Edge", "%", "share of its pings that touch an edge of what the sonar sees", true},
        [](const S& s) { return number_cell(100.0 * s.edge_share(), 0); }},
@@ -67,14 +81,18 @@ std::vector<ColumnOf<SurveySchool>> made_columns() {
       {{"Origin", "", "who found it", false}, [](const S& s) { return text_cell(s.decided().origin); }},
       {{"Operator", "", "who decided last", false}, [](const S& s) { return text_cell(s.decided().operator_name); }},
       {{"Comment", "", "", false}, [](const S& s) { return text_cell(s.decided().comment); }},
-      {{"Surface", "m\u00B2", "area of its outer surface", true}, descriptor<&D::surface_m2, 0>},
+      {{"Surface", "m\u00B2", "area of its outer surface", true},
+       with_error_of<&D::surface_m2, 0, error_at("surface_m2")>},
       {{"Sphericity", "", "surface of the sphere of the same volume over its surface", true},
-       descriptor<&D::sphericity, 2>},
-      {{"Vacuoles", "", "voids that it encloses on all sides", true}, descriptor<&D::n_vacuoles, 0>},
-      {{"Nuclei", "", "dense parts, with half the echo or less between any two", true}, descriptor<&D::n_nuclei, 0>},
+       with_error_of<&D::sphericity, 2, error_at("sphericity")>},
+      {{"Vacuoles", "", "voids that it encloses on all sides", true},
+       with_error_of<&D::n_vacuoles, 0, error_at("n_vacuoles")>},
+      {{"Nuclei", "", "dense parts, with half the echo or less between any two", true},
+       with_error_of<&D::n_nuclei, 0, error_at("n_nuclei")>},
       {{"NASC", "m\u00B2 nmi\u207B\u00B2", "over its own area, seen from above", true},
        [](const S& s) { return broad_cell(s.row == nullptr ? kUnknown : s.row->nasc_m2_nmi2); }},
-      {{"Above seabed", "m", "of its deepest point", true}, descriptor<&D::bottom_distance_m, 1>},
+      {{"Above seabed", "m", "of its deepest point", true},
+       with_error_of<&D::bottom_distance_m, 1, error_at("bottom_distance_m")>},
       {{"Incidence", "\u00B0", "between beam and length: 0 end on, 90 broadside", true},
        descriptor<&D::incidence_deg, 0>},
       {{"Speed through water", "kn", "where a run was told the current", true},
