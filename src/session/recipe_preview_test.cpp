@@ -80,7 +80,7 @@ TEST_F(RecipePreviews, ShowTheSchoolsThatDetectionFindsUnderEach) {
   EXPECT_NE(both_->edited.image(), with_schools) << "no outline is left; Sv is the same";
   EXPECT_THAT(both_->in_force.schools_text(), testing::StartsWith(both_find));
   EXPECT_EQ(both_->in_force.image(), with_schools);
-  set("detect.min_beams", document().recipe().detect.size.min_beams);
+  set("detect.min_beams", 2);
   EXPECT_EQ(both_->edited.image(), with_schools);
   DisplayParams off = workspace().display.values();
   off.masks = false;
