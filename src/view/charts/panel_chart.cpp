@@ -248,11 +248,10 @@ void add_foot(FrameDescription& frame, const Layout& layout, int lines, const st
   }
 }
 
-/// Broken at spaces into few lines, the last of which may be cut.
-std::vector<std::string> broken(const std::string& text, double width_px, double size_px) {
-  constexpr std::size_t kMost = 3;
+/// Broken at spaces into so many lines at most, the last of which may be cut.
+std::vector<std::string> broken(const std::string& text, double width_px, double size_px, std::size_t most) {
   std::vector<std::string> lines = wrapped(text, width_px, size_px);
-  while (lines.size() > kMost) {
+  while (lines.size() > most) {
     const std::string last = std::move(lines.back());
     lines.pop_back();
     lines.back() += " " + last;
@@ -267,17 +266,15 @@ struct Told {
 };
 
 Told told_in(const PanelChartData& data, PixelSize size, const Theme& theme) {
+  constexpr double kMore_em = 4.0;  // of height for one more line of each text, so that the plot stays
   const double em = theme.text_px;
-  Told out{{data.title}, {}};
-  const bool high = size.height >= kKeyFrom_em * em;
-  if (!high) {
-    out.title.push_back(data.below);
-    return out;
-  }
+  const double spare_em = size.height / em - kKeyFrom_em;
   const Layout layout = lay_out(size, theme, {.colour_bar = false, .y_label_characters = 4, .foot_lines = 1});
-  for (std::string& line : broken(data.below, layout.title.width, em)) out.title.push_back(std::move(line));
-  if (!data.caution.empty()) {
-    out.caution = broken(data.caution, layout.foot.width, small_text_px(theme, kCautionShare));
+  const std::size_t most = spare_em < kMore_em ? 1 : spare_em < 2.0 * kMore_em ? 2 : 3;
+  Told out{{data.title}, {}};
+  for (std::string& line : broken(data.below, layout.title.width, em, most)) out.title.push_back(std::move(line));
+  if (spare_em >= 0.0 && !data.caution.empty()) {
+    out.caution = broken(data.caution, layout.foot.width, small_text_px(theme, kCautionShare), most);
   }
   return out;
 }
