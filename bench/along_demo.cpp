@@ -54,6 +54,7 @@ Scene scene_of(const std::filesystem::path& survey, Work& work) {
   const DrawnPing ping = must(observation->ping(kPing, work));
   PictureOptions options;
   options.display.scale.low_db = -75.0;
+  options.display.scale.map = ColourMapName::viridis;
   Scene out;
   out.volume = drawn_volume(sector, *ping.staged, options, {}, ping.navigation.transducer_depth_m);
   out.table = must(volume_table(options));

@@ -139,6 +139,12 @@ Opening open(const Case& survey) {
   return times;
 }
 
+double bytes_of(const Case& survey) {
+  double bytes = 0.0;
+  for (const fs::path& file : raw_files(survey.raw())) bytes += static_cast<double>(fs::file_size(file));
+  return bytes;
+}
+
 void reopen(const Case& survey, int repetitions, LatencyTargets& targets) {
   (void)open(survey);  // measures
   std::vector<double> picture;
@@ -150,9 +156,7 @@ void reopen(const Case& survey, int repetitions, LatencyTargets& targets) {
     schools.push_back(times.schools);
     figures.push_back(times.figures);
   }
-  double bytes = 0.0;
-  for (const fs::path& file : raw_files(survey.raw())) bytes += static_cast<double>(fs::file_size(file));
-  fmt::print("{}, {:.2f} GB\n", survey.name, bytes / 1e9);
+  fmt::print("{}, {:.2f} GB\n", survey.name, bytes_of(survey) / 1e9);
   fmt::print("{}\n", targets.line("first picture", picture, std::nullopt));
   fmt::print("{}\n", targets.line("first picture with schools", schools, survey.target_ms));
   fmt::print("{}\n", targets.line("all figures", figures, std::nullopt));
@@ -178,6 +182,7 @@ void large(const fs::path& folder, int repetitions, double gigabytes, LatencyTar
     enlarge(survey, gigabytes * 1e9);
     run(survey);
   }
+  must(bytes_of(survey) > 0.999 * gigabytes * 1e9, "the survey that was made before is smaller than what is asked for");
   reopen(survey, repetitions, targets);
 }
 

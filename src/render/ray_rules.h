@@ -54,8 +54,8 @@ inline constexpr float kFaceIndex = 2e-3F;  ///< within so much of an index of t
 
 /// Where in its pixel a frame's rays stand, off the middle, -0.5..0.5 in x and y; (0, 0) for frame 0. The same for all
 /// pixels. Sixteen frames stand in the middles of a pixel's 4 x 4 parts: their mean is the picture of sixteen rays a pixel
-/// that is four times as large, reduced. The next sixteen stand elsewhere in these parts (Halton's sequence to the bases 2
-/// and 3).
+/// that is four times as large, reduced. Each second one is the mirror image of the one before. The next sixteen stand
+/// elsewhere in these parts (Halton's sequence to the bases 3 and 5, which never lies on an edge).
 [[nodiscard]] PixelPoint pixel_shift(std::uint32_t jitter_frame);
 
 inline constexpr int kClimbs = 3;

@@ -40,6 +40,10 @@ TEST(RayRules, SixteenFramesAreTheRaysOfALargerPicture) {
       EXPECT_DOUBLE_EQ(y - std::floor(y), 0.5);
     }
     EXPECT_EQ(parts.size(), 16U);
+    for (std::uint32_t n = 16 * round + 1; n < 16 * round + 16; n += 2) {
+      const PixelPoint mirrored{-pixel_shift(n).x, -pixel_shift(n).y};
+      EXPECT_EQ(pixel_shift(n + 1), mirrored) << "a picture of few frames too lies where it is";
+    }
     for (const auto& [x, y] : parts) EXPECT_TRUE(x >= 0 && x < 4 && y >= 0 && y < 4);
   }
   EXPECT_NE(pixel_shift(1), pixel_shift(17));

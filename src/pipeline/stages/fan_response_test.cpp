@@ -12,22 +12,14 @@
 #include <tuple>
 
 #include "base/units.h"
+#include "pipeline/stages/test_fans.h"
 
 namespace sonar {
 namespace {
 
-constexpr Shape3 kShape{3, 9, 60};
+constexpr Shape3 kShape = test::kFans;
 
-std::vector<double> radians(std::vector<double> degrees) {
-  for (double& d : degrees) d = rad_from_deg(d);
-  return degrees;
-}
-
-/// Fans of 10 degrees, beams of 3 degrees, shells of 0.5 m from 20 m on.
-Sector sector() {
-  return Sector(radians({-30.0, -20.0, -10.0}), radians({258, 261, 264, 267, 270, 273, 276, 279, 282}),
-                {20.0, 0.5, kShape.samples});
-}
+Sector sector() { return test::fans_sector(); }
 
 /// A ping that is a little different in every sample, with noise of its own in each beam.
 std::shared_ptr<StagedPing> uneven() {
@@ -47,13 +39,7 @@ std::shared_ptr<StagedPing> uneven() {
   return ping;
 }
 
-PingMask mask_of(std::vector<Run> runs) {
-  PingMask mask;
-  for (const sonar::Run& run : runs)
-    mask.confidence.insert(mask.confidence.end(), static_cast<std::size_t>(run.count), 200);
-  mask.runs = std::move(runs);
-  return mask;
-}
+PingMask mask_of(std::vector<Run> runs) { return test::mask_of(std::move(runs), 200); }
 
 /// A school in the two lower fans, with a fault in it.
 struct Case {

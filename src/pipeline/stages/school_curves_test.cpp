@@ -9,20 +9,14 @@
 #include <vector>
 
 #include "base/units.h"
+#include "pipeline/stages/test_fans.h"
 
 namespace sonar {
 namespace {
 
-constexpr Shape3 kShape{3, 9, 60};
+constexpr Shape3 kShape = test::kFans;
 
-std::vector<double> radians(std::vector<double> degrees) {
-  for (double& d : degrees) d = rad_from_deg(d);
-  return degrees;
-}
-Sector sector() {
-  return Sector(radians({-30.0, -20.0, -10.0}), radians({258, 261, 264, 267, 270, 273, 276, 279, 282}),
-                {20.0, 0.5, kShape.samples});
-}
+Sector sector() { return test::fans_sector(); }
 
 std::int16_t count(double sv_db) { return static_cast<std::int16_t>(std::lround(counts_from_db(sv_db))); }
 
@@ -44,13 +38,7 @@ struct Scene {
   }
 };
 
-PingMask mask_of(std::vector<Run> runs) {
-  PingMask mask;
-  for (const sonar::Run& run : runs)
-    mask.confidence.insert(mask.confidence.end(), static_cast<std::size_t>(run.count), 255);
-  mask.runs = std::move(runs);
-  return mask;
-}
+PingMask mask_of(std::vector<Run> runs) { return test::mask_of(std::move(runs), 255); }
 
 // Two samples of one beam: cells of (r2^3 - r1^3) / 3 sr, centres at 35 and 35.5 m, so 35^2 + 1/48 to 35.5^2 + 1/48.
 TEST(SvHistograms, SharesAreOfVolumeNotOfSamples) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace sonar {
 namespace {
@@ -54,6 +55,31 @@ TEST(FrequencyChart, SaysWhatKeepsItFromBeingTheFishAlone) {
   EXPECT_TRUE(said("frequency (kHz)"));
   EXPECT_TRUE(said("water round school 1"));
   EXPECT_TRUE(said("9 pings"));
+}
+
+/// As a dock of a few hundred pixels has it: in more lines, and whole.
+TEST(FrequencyChart, ANarrowOneTellsAllThatAWideOneDoes) {
+  const auto words = [](PixelSize size) {
+    const auto chart = frequency_chart(by_hand(), size, light_theme(size));
+    EXPECT_TRUE(chart);
+    std::string all;
+    double lowest = 0.0;
+    for (const auto& item : chart->frame.items) {
+      const auto* text = std::get_if<TextItem>(&item);
+      if (text == nullptr) continue;
+      all += text->text + " ";
+      lowest = std::max(lowest, text->at.y);
+    }
+    EXPECT_LT(lowest, size.height);
+    return all;
+  };
+  const std::string wide = words({1600, 900});
+  const std::string narrow = words({330, 360});
+  EXPECT_EQ(narrow.find("\u2026"), std::string::npos) << narrow;
+  for (const char* told : {"mean Sv of each fan over its frequency, 9 pings", "Fans differ in tilt"}) {
+    EXPECT_NE(wide.find(told), std::string::npos) << told;
+    EXPECT_NE(narrow.find(told), std::string::npos) << narrow;
+  }
 }
 
 TEST(FrequencyChart, TellsWhatAPointRestsOn) {

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "base/number_text.h"
 #include "view/key_rows.h"
+#include "view/maps/map_items.h"
 #include "view/shapes.h"
 
 namespace sonar {
@@ -23,6 +25,7 @@ constexpr double kKeyFrom_em = 18.0;  ///< a lower picture has no key and no cau
 constexpr double kPad = 0.06;         ///< of an axis, beyond what is on it
 constexpr double kDash_px = 5.0;
 constexpr int kMostKeyLines = 3;
+constexpr double kCautionShare = 0.9;  ///< of the text's size
 constexpr std::uint8_t kStretchAlpha = 45;
 
 struct Span {
@@ -232,14 +235,48 @@ void add_panel(PanelChart& out, const ChartPanel& panel, const PixelRect& place,
 }
 
 void add_foot(FrameDescription& frame, const Layout& layout, int lines, const std::vector<KeyEntry>& key,
-              const std::string& caution, const Theme& theme) {
+              const std::vector<std::string>& caution, const Theme& theme) {
   PixelRect foot = layout.foot;
   foot.height = lines * kFootLine_em * theme.text_px;
   add_key(frame, foot, key, theme);
-  const double below = foot.y + foot.height + 0.5 * kFootLine_em * theme.text_px;
-  const double small = small_text_px(theme, 0.9);
-  frame.items.emplace_back(
-      text_item({layout.foot.x, below}, elided(caution, small, layout.foot.width), small, theme.muted));
+  double below = foot.y + foot.height + 0.5 * kFootLine_em * theme.text_px;
+  const double small = small_text_px(theme, kCautionShare);
+  for (const std::string& line : caution) {
+    frame.items.emplace_back(
+        text_item({layout.foot.x, below}, elided(line, small, layout.foot.width), small, theme.muted));
+    below += kFootLine_em * theme.text_px;
+  }
+}
+
+/// Broken at spaces into so many lines at most, the last of which may be cut.
+std::vector<std::string> broken(const std::string& text, double width_px, double size_px, std::size_t most) {
+  std::vector<std::string> lines = wrapped(text, width_px, size_px);
+  while (lines.size() > most) {
+    const std::string last = std::move(lines.back());
+    lines.pop_back();
+    lines.back() += " " + last;
+  }
+  return lines;
+}
+
+/// What is told, in lines of a width, where the picture is high enough for more than one of each text.
+struct Told {
+  std::vector<std::string> title;
+  std::vector<std::string> caution;
+};
+
+Told told_in(const PanelChartData& data, PixelSize size, const Theme& theme) {
+  constexpr double kMore_em = 4.0;  // of height for one more line of each text, so that the plot stays
+  const double em = theme.text_px;
+  const double spare_em = size.height / em - kKeyFrom_em;
+  const Layout layout = lay_out(size, theme, {.colour_bar = false, .y_label_characters = 4, .foot_lines = 1});
+  const std::size_t most = spare_em < kMore_em ? 1 : spare_em < 2.0 * kMore_em ? 2 : 3;
+  Told out{{data.title}, {}};
+  for (std::string& line : broken(data.below, layout.title.width, em, most)) out.title.push_back(std::move(line));
+  if (spare_em >= 0.0 && !data.caution.empty()) {
+    out.caution = broken(data.caution, layout.foot.width, small_text_px(theme, kCautionShare), most);
+  }
+  return out;
 }
 
 }  // namespace
@@ -269,7 +306,9 @@ Result<PanelChart> panel_chart(const PanelChartData& data, PixelSize size, const
   const std::vector<KeyEntry> key = with_key ? key_of(data, data.panels.size(), theme) : std::vector<KeyEntry>{};
   LayoutNeeds needs{.colour_bar = false, .y_label_characters = 4, .foot_lines = 1};
   const int lines = std::min(kMostKeyLines, key_lines(key, lay_out(size, theme, needs).foot.width, theme));
-  needs.foot_lines = with_key ? lines + (data.caution.empty() ? 0 : 1) : 0;
+  Told told = told_in(data, size, theme);
+  needs.title_lines = static_cast<int>(told.title.size());
+  needs.foot_lines = with_key ? lines + static_cast<int>(told.caution.size()) : 0;
   const Layout layout = lay_out(size, theme, needs);
   PanelChart out;
   out.frame.size = size;
@@ -278,12 +317,11 @@ Result<PanelChart> panel_chart(const PanelChartData& data, PixelSize size, const
   const std::vector<PixelRect> places = places_of(data, size, layout, theme);
   out.plots.reserve(places.size());  // drawing points to them
   for (std::size_t i = 0; i < places.size(); ++i) add_panel(out, data.panels[i], places[i], theme);
-  std::string below = data.below;
   if (places.size() < data.panels.size()) {
-    below += "; no room for " + count_of(data.panels.size() - places.size(), "more panel");
+    told.title.back() += "; no room for " + count_of(data.panels.size() - places.size(), "more panel");
   }
-  add_title(out.frame, layout, theme, {data.title, below});
-  if (needs.foot_lines > 0) add_foot(out.frame, layout, lines, key, data.caution, theme);
+  add_title(out.frame, layout, theme, told.title);
+  if (needs.foot_lines > 0) add_foot(out.frame, layout, lines, key, told.caution, theme);
   return out;
 }
 
