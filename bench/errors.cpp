@@ -87,13 +87,14 @@ class School {
   void see() {
     const Array3<double> fading = fading_->look(random_);
     const Shape3 shape = water_.expected.shape();
-    counts_ = Array3<std::int16_t>(shape, count_from_linear(linear_from_db(test::kNoise_db)));
+    const double noise = linear_from_db(test::kNoise_db);
+    counts_ = Array3<std::int16_t>(shape, count_from_linear(noise));
     for (int f = 0; f < box_.fans(); ++f) {
       for (int b = 0; b < box_.beams(); ++b) {
         for (int s = 0; s < box_.samples(); ++s) {
           const double sv = water_.expected(box_.first_fan + f, box_.first_beam + b, box_.first_sample + s);
           counts_(box_.first_fan + f, box_.first_beam + b, box_.first_sample + s) =
-              count_from_linear((sv + linear_from_db(test::kNoise_db)) * fading(f, b, s));
+              count_from_linear((sv + noise) * fading(f, b, s));
         }
       }
     }
