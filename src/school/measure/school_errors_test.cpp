@@ -210,13 +210,13 @@ double deviation(const std::vector<double>& values) {
   return std::sqrt(square);
 }
 
-// The bench tells it for all figures over random bodies; here one body, and a deviation of 30 looks that is known to 13 %.
+// The bench tells it for all figures over random bodies; here one body, and a deviation of 40 looks that is known to 11 %.
 TEST(SchoolErrors, RepeatsOfOneLookScatterAsLooksDo) {
   Looks looks;
-  const std::vector<std::string_view> figures{"volume_m3", "backscatter_m2", "surface_m2", "depth_m"};
+  const std::vector<std::string_view> figures{"volume_m3", "backscatter_m2", "surface_m2"};
   std::vector<std::vector<double>> seen(figures.size());
   std::vector<double> told(figures.size());
-  constexpr int kLooks = 30;
+  constexpr int kLooks = 40;
   constexpr int kRepeated = 4;
   ErrorParams params;
   params.enabled = true;
