@@ -22,7 +22,7 @@ no file holds, which must be faults. Which samples beyond the masks were faulty 
   bodies whose figures are known. Nor are diner_nb_across, diner_nb_height, bottom_distance_m, mass_latitude and
   mass_longitude in school_pings.csv. incidence_deg is of the extents that are not recounted.
 - the columns of movement that came with them (speed_smoothed_mps to wake_distance_m, and in schools.csv course_se_deg to
-  current_se_mps), depth_error_m and the columns of extinction of a ping: not recounted. Their tests are ways and currents whose figures are known.
+  current_se_mps) and their errors, depth_error_m and the columns of extinction of a ping: not recounted. Their tests are ways and currents whose figures are known.
 - where sound is bent along rays (survey.bend_rays): not recounted is what follows the rays (BENT).
 - columns that came after the product was written: left out.
 - threshold_db: not recounted. It comes from the level at which the detection split the filtered volume; masks and

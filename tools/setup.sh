@@ -4,7 +4,7 @@
 #   tools/setup.sh [build | test | full | bench | readers | cluster | packages]...     (default: build)
 # build  to build and run sonarx      test   build + unit, data and command-line tests, format check
 # full   test + clang, clang-tidy, sanitizers, fuzzing, Vulkan's tools      bench  build + the rivals that the benchmarks measure
-# readers  test + other people's programs that read our files: xarray, OGR, R, QGIS      cluster  test + Slurm
+# readers  test + other people's programs that read our files: xarray, OGR, R, QGIS, VTK      cluster  test + Slurm
 # packages  build + what makes the Debian packages and the manual, and tries them in a bare root
 set -euo pipefail
 
@@ -13,9 +13,10 @@ build=(g++ cmake ninja-build ccache pkg-config ca-certificates python3
        libnetcdf-dev libseccomp-dev libgdal-dev libpugixml-dev nlohmann-json3-dev libcli11-dev
        libcairo2-dev libpango1.0-dev fonts-dejavu-core libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri qt6-base-dev)
 test=(libgtest-dev libgmock-dev clang-format-16 git locales python3-numpy python3-netcdf4
-      pybind11-dev python3-dev netcdf-bin udunits-bin xvfb xauth ffmpeg
+      pybind11-dev python3-dev netcdf-bin udunits-bin libxml2-utils xvfb xauth ffmpeg
       bash-completion zsh fish)
-readers=(python3-xarray python3-matplotlib gdal-bin r-base-core r-cran-ncdf4 r-cran-sf r-cran-ggplot2 python3-qgis)
+readers=(python3-xarray python3-matplotlib gdal-bin r-base-core r-cran-ncdf4 r-cran-sf r-cran-ggplot2 python3-qgis
+         python3-vtk9)
 cluster=(munge slurmctld slurmd slurm-client)
 packages=(pybind11-dev python3-dev dpkg-dev file gzip git mkdocs desktop-file-utils groff-base debootstrap
           patchelf squashfs-tools)

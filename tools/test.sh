@@ -138,7 +138,7 @@ if $full; then
   part "clang-tidy" tidy
   part "tests with address and undefined-behaviour sanitizers" run_ctest asan -LE 'slow|gui'
   part "g++ and clang give the same bytes" same_bytes_of_both_compilers
-  part "fuzzing" tools/fuzz --seconds 5 --seed 1 --no-ledger
+  part "fuzzing" tools/fuzz --preset asan --seconds 5 --seed 1 --no-ledger
   part "threaded tests with the thread sanitizer" threaded_tests
   part "headless build" headless
   part "build of the benchmarks" benchmarks

@@ -6,6 +6,8 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "cli/exit_codes.h"
@@ -28,6 +30,7 @@ struct ExportArguments {
   ReduceParams reduce;
   SeabedRasterParams seabed;
   bool no_formulas = false;
+  int count_from = 1;
   int jobs = 0;
 };
 
@@ -37,14 +40,19 @@ constexpr std::array<OptionOf, 5> kOptions{{{"margin_samples", "--margin-samples
                                             {"margin_pings", "--margin-pings"},
                                             {"coarsen_beams", "--coarsen"}}};
 
+/// Option, and the format that it belongs to.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kOptionsOfOneFormat{
+    {{"--cell-m", "seabed"}, {"--geographic", "seabed"}, {"--no-formulas", "csv"}, {"--count-from", "lsss"}}};
+
 int run_export(const ExportArguments& arguments) {
   Work work(arguments.jobs);
   const CancelOnInterrupt watch(work);
   show_progress(work);
-  const ExportOptions options{arguments.out,    arguments.format,
-                              arguments.dest,   arguments.survey,
-                              arguments.reduce, arguments.no_formulas ? CsvTexts::no_formulas : CsvTexts::as_they_are,
-                              arguments.seabed};
+  const ExportOptions options{
+      arguments.out,    arguments.format,
+      arguments.dest,   arguments.survey,
+      arguments.reduce, arguments.no_formulas ? CsvTexts::no_formulas : CsvTexts::as_they_are,
+      arguments.seabed, arguments.count_from == 0 ? LsssNumbering::from_zero : LsssNumbering::from_one};
   const auto done = export_products(options, work);
   clear_progress();
   if (!done) return report(naming_option(done.error(), kOptions));
@@ -88,6 +96,9 @@ void add_export(CLI::App& app, VerbRunner& run) {
                  "seabed: raster along latitudes and longitudes, not UTM");
   verb->add_flag("--no-formulas", arguments->no_formulas,
                  "csv: texts that a spreadsheet would take for a formula (= + - @) stand behind an apostrophe");
+  verb->add_option("--count-from", arguments->count_from, "lsss: number of the first channel and sample, 1 or 0")
+      ->check(whole_within(0, 1))
+      ->capture_default_str();
   verb->add_option("-j,--jobs", arguments->jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));
   verb->callback([arguments, &run, verb] {
     for (const OptionOf& of : kOptions) {
@@ -95,12 +106,9 @@ void add_export(CLI::App& app, VerbRunner& run) {
       if (arguments->format == "raw-reduced" || verb->get_option(option)->count() == 0) continue;
       throw CLI::ValidationError(option, "belongs to --to raw-reduced");
     }
-    for (const char* option : {"--cell-m", "--geographic"}) {
-      if (arguments->format == "seabed" || verb->get_option(option)->count() == 0) continue;
-      throw CLI::ValidationError(option, "belongs to --to seabed");
-    }
-    if (arguments->no_formulas && arguments->format != "csv") {
-      throw CLI::ValidationError("--no-formulas", "belongs to --to csv");
+    for (const auto& [option, format] : kOptionsOfOneFormat) {
+      if (arguments->format == format || verb->get_option(std::string(option))->count() == 0) continue;
+      throw CLI::ValidationError(std::string(option), fmt::format("belongs to --to {}", format));
     }
     run = [arguments] { return run_export(*arguments); };
   });

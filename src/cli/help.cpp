@@ -56,6 +56,10 @@ constexpr std::array kExamples = {
              "  sonarx biomass OUT --lengths lengths.csv --ts herring-side --weight-a 0.0048 --weight-b 3.2\n"},
     Examples{"propagate",
              "  sonarx propagate SURVEY --observation obs-0001 --seed 6,6,7,442 --tolerance-db 10 -o ONE\n"},
+    Examples{"import",
+             "  sonarx export OUT --to echoview -o REGIONS     to be looked at and changed in Echoview\n"
+             "  sonarx import SURVEY REGIONS/*.evr -o regions.jsonl --operator NAME\n"
+             "  sonarx run SURVEY -o NEW --session regions.jsonl\n"},
     Examples{"export",
              "  sonarx export OUT --to csv -o TABLES\n  sonarx export OUT --to geojson -o MAP\n"
              "  sonarx export OUT --to raw-reduced --survey SURVEY -o SMALL\n"

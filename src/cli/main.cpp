@@ -52,6 +52,7 @@ int run_program(int argc, char** argv) {
   add_integrate(app, run);
   add_biomass(app, run);
   add_propagate(app, run);
+  add_import(app, run);
   add_export(app, run);
   add_score(app, run);
   add_agree(app, run);

@@ -81,6 +81,10 @@ void add_common(CLI::App& verb, RenderArguments& a) {
                       "CSV name,stratum,type,start_utc,stop_utc: transects along the track, a colour for each stratum")
           ->check(named_file()),
       "survey-map report");
+  suits(verb.add_option("--line", a.picture.line,
+                        "Line of Echoview (.evl) over an echogram against depth (--depth): a seabed, a layer")
+            ->check(named_file()),
+        "echogram");
   suits(verb.add_option("--against", a.against,
                         "Another reader's work folder of the same raw files: show which voxels are in both, which only "
                         "in PATH (A) and which only there (B); --ping default: where they differ most, else that of "
@@ -186,6 +190,9 @@ void settle_options(const CLI::App& verb, RenderArguments& a) {
   const bool noise_removed = drawn_kind_name(a) == "volume" ? picture.volume.filtered : picture.display.filtered;
   if (!given("--removed")) picture.display.removed = noise_removed ? NoiseLook::transparent : NoiseLook::shown;
   if (given("--weak-db") && !given("--weak")) throw CLI::ValidationError("--weak-db", "goes with --weak");
+  if (given("--line") && !given("--depth")) {
+    throw CLI::ValidationError("--line", "goes with --depth: its points are depths");
+  }
   if (given("--eye") && !given("--target")) throw CLI::ValidationError("--eye", "goes with --target");
   if (given("--target") && !given("--eye")) throw CLI::ValidationError("--target", "goes with --eye");
   // A plane's figures tell how it lies.

@@ -26,6 +26,7 @@ void add_check(CLI::App& app, VerbRunner& run);
 void add_integrate(CLI::App& app, VerbRunner& run);
 void add_biomass(CLI::App& app, VerbRunner& run);
 void add_propagate(CLI::App& app, VerbRunner& run);
+void add_import(CLI::App& app, VerbRunner& run);
 void add_export(CLI::App& app, VerbRunner& run);
 void add_score(CLI::App& app, VerbRunner& run);
 void add_agree(CLI::App& app, VerbRunner& run);

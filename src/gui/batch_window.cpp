@@ -6,8 +6,6 @@
 #include <QDragEnterEvent>
 #include <QFontDatabase>
 #include <QKeyEvent>
-#include <QScreen>
-#include <QShortcut>
 #include <QSplitter>
 #include <cmath>
 #include <utility>
@@ -21,7 +19,6 @@ namespace {
 
 constexpr const char* kRecipes = to_translate("Recipes (*.json *.JSON);;All files (*)");
 constexpr const char* kTexts = to_translate("Texts (*.txt *.log);;All files (*)");
-constexpr QSize kUsualSize{1180, 680};
 constexpr int kMostJobs = 1024;
 constexpr int kPermille = 1000;
 
@@ -30,12 +27,11 @@ QString text(const std::string& utf8) { return QString::fromStdString(utf8); }
 }  // namespace
 
 BatchWindow::BatchWindow(AppModel& app, QWidget& main)
-    : app_(app), batch_(*app.batch), main_(main), table_(new BatchTable(batch_, this)) {
-  setObjectName("batch");
-  setWindowTitle(translated("Run surveys"));
-  resize(kUsualSize.boundedTo(screen()->availableSize()));
+    : OwnWindow(app, "batch", to_translate("Run surveys")),
+      batch_(*app.batch),
+      main_(main),
+      table_(new BatchTable(batch_, this)) {
   setAcceptDrops(true);
-  setAttribute(Qt::WA_QuitOnClose, false);
   auto* halves = new QSplitter(Qt::Vertical, this);
   halves->setChildrenCollapsible(false);
   halves->addWidget(upper_half());
@@ -47,30 +43,12 @@ BatchWindow::BatchWindow(AppModel& app, QWidget& main)
   table_->installEventFilter(this);
   connect(table_, &QTreeView::doubleClicked, this, [this] { open_current(); });
   connect(table_->selectionModel(), &QItemSelectionModel::currentChanged, this, [this] { show_state(); });
-  connect(new QShortcut(QKeySequence::Close, this), &QShortcut::activated, this, [this] { close(); });
   listening_.to(batch_.changed(), [this](BatchChange change) { follow(change); });
   listening_.to(app.workspace.document.changes(), [this](DocumentChange change) {
     if (change == DocumentChange::survey) follow(BatchChange::surveys);
   });
   follow(BatchChange::surveys);
   show_log();
-}
-
-void BatchWindow::come_to_front() {
-  show();
-  setWindowState(windowState() & ~Qt::WindowMinimized);
-  raise();
-  activateWindow();
-}
-
-QPushButton* BatchWindow::add_button(QBoxLayout& row, const char* name, const char* text, const char* tip,
-                                     std::function<void()> pressed) {
-  auto* button = new QPushButton(translated(text), this);
-  button->setObjectName(name);
-  button->setToolTip(translated(tip));
-  connect(button, &QPushButton::clicked, this, std::move(pressed));
-  row.addWidget(button);
-  return button;
 }
 
 QWidget* BatchWindow::upper_half() {
@@ -84,12 +62,12 @@ QWidget* BatchWindow::upper_half() {
           "A folder of raw files; or a folder of such folders, each of which is a survey of its own. Folders can be "
           "dropped here as well"),
       [this] {
-        const std::string folder = app_.dialogs.folder_to_run ? app_.dialogs.folder_to_run() : std::string();
+        const std::string folder = app().dialogs.folder_to_run ? app().dialogs.folder_to_run() : std::string();
         if (!folder.empty()) add_paths({folder});
       });
   open_window_ = add_button(*row, "add_open", to_translate("Add the open survey"),
                             to_translate("The one that the main window shows"),
-                            [this] { tell(batch_.add_survey(app_.workspace.document.paths())); });
+                            [this] { tell(batch_.add_survey(app().workspace.document.paths())); });
   remove_ = add_button(*row, "remove", to_translate("Remove"),
                        to_translate("Takes the marked survey out of the list (Del); no file is touched"),
                        [this] { remove(); });
@@ -111,11 +89,7 @@ QWidget* BatchWindow::upper_half() {
   column->addWidget(table_, 1);
   add_recipe_row(*column);
   add_run_row(*column);
-  told_->setObjectName("told");
-  told_->setTextFormat(Qt::PlainText);
-  told_->setWordWrap(true);
-  told_->hide();
-  column->addWidget(told_);
+  column->addWidget(told());
   return half;
 }
 
@@ -155,7 +129,7 @@ void BatchWindow::add_run_row(QBoxLayout& column) {
   row->addWidget(total_, 1);
   start_ = add_button(*row, "start", to_translate("&Start"),
                       to_translate("Runs the surveys one after another; what is done already stays"),
-                      [this] { tell(start_batch(app_)); });
+                      [this] { tell(start_batch(app())); });
   stop_ = add_button(*row, "stop", to_translate("S&top"),
                      to_translate("Finished observations stay, and the next start goes on from there"),
                      [this] { batch_.stop(); });
@@ -172,7 +146,7 @@ QWidget* BatchWindow::lower_half() {
   row->addWidget(label);
   row->addStretch(1);
   add_button(*row, "copy_log", to_translate("Copy log"), to_translate("All lines, to the clipboard"), [this] {
-    if (app_.dialogs.copy) app_.dialogs.copy(log_->toPlainText().toStdString());
+    if (app().dialogs.copy) app().dialogs.copy(log_->toPlainText().toStdString());
   });
   add_button(*row, "save_log", to_translate("Save log..."), to_translate("All lines, as a text file"),
              [this] { save_log(); });
@@ -186,11 +160,6 @@ QWidget* BatchWindow::lower_half() {
   return half;
 }
 
-void BatchWindow::tell(const Result<void>& done) {
-  told_->setText(done ? QString() : text(to_line(done.error())));
-  told_->setVisible(!done);
-}
-
 void BatchWindow::add_paths(const std::vector<std::filesystem::path>& paths) {
   if (paths.empty()) return;
   tell(batch_.add(paths));
@@ -198,11 +167,11 @@ void BatchWindow::add_paths(const std::vector<std::filesystem::path>& paths) {
 
 void BatchWindow::choose_out() {
   const auto at = table_->current();
-  if (!at || !app_.dialogs.folder_to_save) return;
+  if (!at || !app().dialogs.folder_to_save) return;
   const BatchSurvey& survey = batch_.surveys()[*at];
   const std::filesystem::path beside = survey.out.empty() ? survey.paths.front() : survey.out;
   const std::string folder =
-      app_.dialogs.folder_to_save(to_translate("Folder for the results"), beside.parent_path().string());
+      app().dialogs.folder_to_save(to_translate("Folder for the results"), beside.parent_path().string());
   if (!folder.empty()) tell(batch_.set_out(*at, folder));
 }
 
@@ -210,7 +179,7 @@ void BatchWindow::choose_recipe(int choice) {
   const auto chosen = static_cast<BatchRecipe>(choice);
   std::string file;
   if (chosen == BatchRecipe::of_file) {
-    file = app_.dialogs.file_to_open ? app_.dialogs.file_to_open(to_translate("Recipe"), kRecipes) : std::string();
+    file = app().dialogs.file_to_open ? app().dialogs.file_to_open(to_translate("Recipe"), kRecipes) : std::string();
     if (file.empty()) return show_recipe();
   }
   tell(batch_.set_recipe(chosen, file));
@@ -231,14 +200,14 @@ void BatchWindow::remove() {
 void BatchWindow::open_current() {
   const auto at = table_->current();
   if (!at) return;
-  open_run_survey(app_, *at);
+  open_run_survey(app(), *at);
   main_.raise();
   main_.activateWindow();
 }
 
 void BatchWindow::save_log() {
-  const std::string file = app_.dialogs.file_to_save
-                               ? app_.dialogs.file_to_save(to_translate("Save log"), kTexts, "runs.txt")
+  const std::string file = app().dialogs.file_to_save
+                               ? app().dialogs.file_to_save(to_translate("Save log"), kTexts, "runs.txt")
                                : std::string();
   if (!file.empty()) tell(batch_.save_log(file));
 }
@@ -254,7 +223,7 @@ void BatchWindow::show_recipe() {
   recipe_->setCurrentIndex(static_cast<int>(choice));
   // That of a survey that is not there cannot be taken.
   recipe_->setItemData(static_cast<int>(BatchRecipe::of_window),
-                       app_.workspace.document.survey() != nullptr ? QVariant() : QVariant(0), Qt::UserRole - 1);
+                       app().workspace.document.survey() != nullptr ? QVariant() : QVariant(0), Qt::UserRole - 1);
   const QString file = choice == BatchRecipe::of_file ? text(printable(batch_.recipe_file().string())) : QString();
   recipe_file_->setToolTip(file);
   recipe_file_->setText(recipe_file_->fontMetrics().elidedText(file, Qt::ElideMiddle, width() / 3));
@@ -265,7 +234,7 @@ void BatchWindow::show_state() {
   const auto at = table_->current();
   const bool marked = at && *at < batch_.surveys().size();
   const bool at_work = marked && batch_.surveys()[*at].state == BatchState::running;
-  open_window_->setEnabled(app_.workspace.document.survey() != nullptr);
+  open_window_->setEnabled(app().workspace.document.survey() != nullptr);
   remove_->setEnabled(marked && !at_work);
   earlier_->setEnabled(marked && *at > 0);
   later_->setEnabled(marked && *at + 1 < batch_.surveys().size());
@@ -286,8 +255,8 @@ void BatchWindow::show_log() {
 }
 
 void BatchWindow::closeEvent(QCloseEvent* event) {
-  if (!batch_may_end(app_)) return event->ignore();
-  QWidget::closeEvent(event);
+  if (!batch_may_end(app())) return event->ignore();
+  OwnWindow::closeEvent(event);
 }
 
 void BatchWindow::dragEnterEvent(QDragEnterEvent* event) {
@@ -298,13 +267,13 @@ void BatchWindow::dropEvent(QDropEvent* event) { add_paths(dropped_paths(*event-
 
 bool BatchWindow::eventFilter(QObject* watched, QEvent* event) {
   const auto* key = event->type() == QEvent::KeyPress ? static_cast<QKeyEvent*>(event) : nullptr;
-  if (watched != table_ || key == nullptr) return QWidget::eventFilter(watched, event);
+  if (watched != table_ || key == nullptr) return OwnWindow::eventFilter(watched, event);
   const bool alt = key->modifiers() == Qt::AltModifier;
   if (key->key() == Qt::Key_Delete) return remove(), true;
   if (key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter) return open_current(), true;
   if (alt && key->key() == Qt::Key_Up) return move(false), true;
   if (alt && key->key() == Qt::Key_Down) return move(true), true;
-  return QWidget::eventFilter(watched, event);
+  return OwnWindow::eventFilter(watched, event);
 }
 
 }  // namespace sonar

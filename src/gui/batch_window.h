@@ -2,33 +2,24 @@
 #pragma once
 
 #include <QComboBox>
-#include <QLabel>
 #include <QPlainTextEdit>
 #include <QProgressBar>
-#include <QPushButton>
 #include <QSpinBox>
-#include <QWidget>
 #include <cstddef>
 #include <filesystem>
-#include <functional>
-#include <string>
 #include <vector>
 
-#include "base/result.h"
 #include "gui/batch_table.h"
-#include "session/app_model.h"
+#include "gui/page_window.h"
 #include "session/listening.h"
-
-class QBoxLayout;
 
 namespace sonar {
 
 /// Surveys that are run one after another, in a window of its own beside the main one: work goes on there meanwhile.
-class BatchWindow : public QWidget {
+class BatchWindow : public OwnWindow {
  public:
   /// Both outlive the window. main  comes to the front when a survey is opened
   BatchWindow(AppModel& app, QWidget& main);
-  void come_to_front();
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -39,8 +30,6 @@ class BatchWindow : public QWidget {
  private:
   [[nodiscard]] QWidget* upper_half();
   [[nodiscard]] QWidget* lower_half();
-  QPushButton* add_button(QBoxLayout& row, const char* name, const char* text, const char* tip,
-                          std::function<void()> pressed);
   void add_recipe_row(QBoxLayout& column);
   void add_run_row(QBoxLayout& column);
 
@@ -51,14 +40,11 @@ class BatchWindow : public QWidget {
   void remove();
   void open_current();
   void save_log();
-  /// What was asked for, or why it cannot be done.
-  void tell(const Result<void>& done);
   void follow(BatchChange change);
   void show_recipe();
   void show_state();
   void show_log();
 
-  AppModel& app_;
   Batch& batch_;
   QWidget& main_;
   BatchTable* table_;
@@ -66,7 +52,6 @@ class BatchWindow : public QWidget {
   QLabel* recipe_file_ = new QLabel(this);
   QSpinBox* jobs_ = new QSpinBox(this);
   QProgressBar* total_ = new QProgressBar(this);
-  QLabel* told_ = new QLabel(this);
   QPlainTextEdit* log_ = new QPlainTextEdit(this);
   QPushButton* open_window_ = nullptr;
   QPushButton* remove_ = nullptr;

@@ -38,23 +38,29 @@ void BiomassWindow::showEvent(QShowEvent* event) {
   fish_.begin();
 }
 
+void BiomassWindow::hideEvent(QHideEvent* event) {
+  PageWindow::hideEvent(event);
+  fish_.end();
+}
+
+PanelSection BiomassWindow::section(const char* title, std::vector<std::string> names) {
+  PanelSection made{title, std::make_shared<SourceOf<FishParams>>(fish_.params), std::move(names)};
+  PanelSection::Words relations{"relation", {}};
+  for (const TsRelation& one : fish_.relations()) relations.words.push_back(one.name);
+  made.looks = {{"weight_a_g", to_translate("no biomass"), {kNoWeight_g, 0.02}}};
+  made.words = {std::move(relations)};
+  const auto own = [this] { return fish_.params.values().aspect == AspectModel::own; };
+  const auto normal = [this] { return fish_.params.values().lengths == LengthsFrom::mean_and_sd; };
+  for (const char* name : {"line_share", "any_aspect_share", "heading_sd_deg", "tilt_sd_deg"}) {
+    made.uses.push_back({name, own});
+  }
+  for (const char* name : {"mean_length_cm", "sd_length_cm"}) made.uses.push_back({name, normal});
+  return made;
+}
+
 void BiomassWindow::add_choices() {
-  const auto source = std::make_shared<SourceOf<FishParams>>(fish_.params);
-  const auto section = [&](const char* title, std::vector<std::string> names) {
-    PanelSection made{title, source, std::move(names)};
-    PanelSection::Words relations{"relation", {}};
-    for (const TsRelation& one : fish_.relations()) relations.words.push_back(one.name);
-    made.looks = {{"weight_a_g", to_translate("no biomass"), {kNoWeight_g, 0.02}}};
-    made.words = {std::move(relations)};
-    const auto own = [this] { return fish_.params.values().aspect == AspectModel::own; };
-    const auto normal = [this] { return fish_.params.values().lengths == LengthsFrom::mean_and_sd; };
-    for (const char* name : {"line_share", "any_aspect_share", "heading_sd_deg", "tilt_sd_deg"}) {
-      made.uses.push_back({name, own});
-    }
-    for (const char* name : {"mean_length_cm", "sd_length_cm"}) made.uses.push_back({name, normal});
-    add_folding_section(choices(), made, inside());
-  };
-  section(to_translate("Target strength"), {"relation"});
+  strength_ = new QVBoxLayout();
+  choices().addLayout(strength_);
   relation_ = new QLabel(inside());
   relation_->setObjectName("relation_text");
   relation_->setTextFormat(Qt::PlainText);
@@ -70,10 +76,21 @@ void BiomassWindow::add_choices() {
     fish_.set_spans(item->data(Qt::UserRole).toString().toStdString(), item->checkState() == Qt::Checked);
   });
   choices().addWidget(relations_);
-  section(to_translate("Fish"), {"lengths", "mean_length_cm", "sd_length_cm", "weight_a_g", "weight_b", "species"});
-  section(to_translate("Aspect"), {"aspect", "line_share", "any_aspect_share", "heading_sd_deg", "tilt_sd_deg"});
+  add_folding_section(
+      choices(),
+      section(to_translate("Fish"), {"lengths", "mean_length_cm", "sd_length_cm", "weight_a_g", "weight_b", "species"}),
+      inside());
+  add_folding_section(
+      choices(),
+      section(to_translate("Aspect"), {"aspect", "line_share", "any_aspect_share", "heading_sd_deg", "tilt_sd_deg"}),
+      inside());
   auto* row = new QHBoxLayout();
   choices().addLayout(row);
+  add_button(
+      *row, "open_relations", to_translate("TS relations..."),
+      to_translate("A table of relations between target strength and length, as sonarx biomass --print-ts writes "
+                   "one; they take the place of the program's"),
+      [this] { open_table(to_translate("Relations of target strength"), &FishBiomass::read_relations); });
   add_button(*row, "open_lengths", to_translate("Lengths..."),
              to_translate("A table length_cm,count or length_cm,fraction"),
              [this] { open_table(to_translate("Lengths of fish"), &FishBiomass::read_lengths); });
@@ -83,6 +100,7 @@ void BiomassWindow::add_choices() {
   files_->setTextFormat(Qt::PlainText);
   files_->setWordWrap(true);
   choices().addWidget(files_);
+  show_relations();
   end_choices();
 }
 
@@ -107,7 +125,17 @@ void BiomassWindow::open_table(const char* title, Result<void> (FishBiomass::*re
 void BiomassWindow::show_relations() {
   const QSignalBlocker silent(relations_);
   const auto& all = fish_.relations();
-  if (relations_->count() != static_cast<int>(all.size())) {
+  bool same = relation_choice_ != nullptr && relations_->count() == static_cast<int>(all.size());
+  for (int i = 0; same && i < relations_->count(); ++i) {
+    same = relations_->item(i)->text() == text(all[static_cast<std::size_t>(i)].name);
+  }
+  if (!same) {
+    delete relation_choice_;
+    relation_choice_ = new QWidget(inside());
+    auto* column = new QVBoxLayout(relation_choice_);
+    column->setContentsMargins(0, 0, 0, 0);
+    add_folding_section(*column, section(to_translate("Target strength"), {"relation"}), relation_choice_);
+    strength_->addWidget(relation_choice_);
     relations_->clear();
     for (const TsRelation& one : all) {
       auto* item = new QListWidgetItem(text(one.name), relations_);
@@ -125,7 +153,7 @@ void BiomassWindow::show_relations() {
 void BiomassWindow::show_state() {
   relation_->setText(text(fish_.relation_text()));
   QString files;
-  for (const std::filesystem::path& file : {fish_.lengths_file(), fish_.areas_file()}) {
+  for (const std::filesystem::path& file : {fish_.relations_file(), fish_.lengths_file(), fish_.areas_file()}) {
     if (!file.empty()) files += text(printable(file.filename().string())) + " ";
   }
   files_->setText(files);

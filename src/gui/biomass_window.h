@@ -4,6 +4,7 @@
 #include <QListWidget>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "gui/page_window.h"
 #include "session/listening.h"
@@ -20,8 +21,10 @@ class BiomassWindow : public PageWindow {
 
  protected:
   void showEvent(QShowEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
 
  private:
+  [[nodiscard]] PanelSection section(const char* title, std::vector<std::string> names);
   void add_choices();
   void add_foot();
   void open_table(const char* title, Result<void> (FishBiomass::*read)(const std::filesystem::path&));
@@ -30,6 +33,8 @@ class BiomassWindow : public PageWindow {
 
   FishBiomass& fish_;
   std::unique_ptr<CausePicture> causes_;
+  QVBoxLayout* strength_ = nullptr;
+  QWidget* relation_choice_ = nullptr;
   QListWidget* relations_ = nullptr;
   QLabel* relation_ = nullptr;
   QLabel* files_ = nullptr;

@@ -21,12 +21,13 @@ IntegrationWindow::IntegrationWindow(AppModel& app)
   add_results();
   add_foot();
   listening_.to(integration_.changed(), [this] { show_state(); });
+  listening_.to(app.workspace.units.changed(), [this] { show_bins(); });
   show_state();
 }
 
 void IntegrationWindow::add_choices() {
-  const auto source = std::make_shared<SourceOf<IntegrateParams>>(integration_.params);
-  add_folding_section(choices(), PanelSection{to_translate("How water is cut"), source}, inside());
+  add_folding_section(choices(), PanelSection{to_translate("How water is cut"), source_of(integration_.params)},
+                      inside());
   transects_ = new QLabel(inside());
   transects_->setObjectName("transects");
   transects_->setTextFormat(Qt::PlainText);
@@ -84,10 +85,16 @@ void IntegrationWindow::add_foot() {
 
 void IntegrationWindow::show_bins() {
   const std::vector<double> bins = section_->range_bins();
+  const auto words_of = [unit = app().workspace.units().length()](double from_m) {
+    return translated("Section: range bin from %1").arg(QString::fromStdString(round_text(from_m, unit)));
+  };
   if (bins_->count() == static_cast<int>(bins.size()) + 1) {
     bool same = true;
     for (int i = 0; i < static_cast<int>(bins.size()); ++i) {
       same = same && bins_->itemData(i + 1).toDouble() == bins[static_cast<std::size_t>(i)];
+    }
+    for (int i = 0; same && i < static_cast<int>(bins.size()); ++i) {
+      bins_->setItemText(i + 1, words_of(bins[static_cast<std::size_t>(i)]));
     }
     if (same) return;
   }
@@ -95,7 +102,7 @@ void IntegrationWindow::show_bins() {
   bins_->clear();
   bins_->addItem(translated("Section: mean of all range bins"));
   for (const double from_m : bins) {
-    bins_->addItem(translated("Section: range bin from %1 m").arg(from_m), from_m);
+    bins_->addItem(words_of(from_m), from_m);
   }
   section_->show_range_bin(std::nullopt);
 }

@@ -165,12 +165,11 @@ int run_program(int argc, char** argv) {
   app.actions.take_keys(app.preferences.keys);
   if (parser.isSet(line.dark)) app.workspace.dark.set(true);
   if (parser.isSet(line.recipe)) {
-    auto recipe = named_recipe(parser.value(line.recipe).toStdString());
-    if (!recipe) {
-      std::fprintf(stderr, "sonar-explorer: %s\n", to_line(recipe.error()).c_str());
+    const auto used = app.workspace.document.use_named_recipe(parser.value(line.recipe).toStdString());
+    if (!used) {
+      std::fprintf(stderr, "sonar-explorer: %s\n", to_line(used.error()).c_str());
       return 2;
     }
-    app.workspace.document.use_recipe(std::move(*recipe));
   }
   MainWindow window(app);
   window.take_layout(app.preferences.window_layout);

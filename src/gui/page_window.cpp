@@ -20,11 +20,42 @@ constexpr QSize kUsualSize{1180, 720};
 
 }  // namespace
 
-PageWindow::PageWindow(AppModel& app, const char* name, const char* title) : app_(app) {
+OwnWindow::OwnWindow(AppModel& app, const char* name, const char* title) : app_(app), told_(new QLabel(this)) {
   setObjectName(name);
   setWindowTitle(translated(title));
   resize(kUsualSize.boundedTo(screen()->availableSize()));
   setAttribute(Qt::WA_QuitOnClose, false);
+  told_->setObjectName("told");
+  told_->setTextFormat(Qt::PlainText);
+  told_->setWordWrap(true);
+  told_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  told_->hide();
+  connect(new QShortcut(QKeySequence::Close, this), &QShortcut::activated, this, [this] { close(); });
+}
+
+void OwnWindow::come_to_front() {
+  show();
+  setWindowState(windowState() & ~Qt::WindowMinimized);
+  raise();
+  activateWindow();
+}
+
+QPushButton* OwnWindow::add_button(QBoxLayout& row, const char* name, const char* text, const char* tip,
+                                   std::function<void()> pressed) {
+  auto* button = new QPushButton(translated(text), this);
+  button->setObjectName(name);
+  button->setToolTip(translated(tip));
+  connect(button, &QPushButton::clicked, this, std::move(pressed));
+  row.addWidget(button);
+  return button;
+}
+
+void OwnWindow::tell(const std::string& line) {
+  told_->setText(QString::fromStdString(line));
+  told_->setVisible(!line.empty());
+}
+
+PageWindow::PageWindow(AppModel& app, const char* name, const char* title) : OwnWindow(app, name, title) {
   auto* column = new QVBoxLayout(this);
   auto* halves = new QSplitter(Qt::Horizontal, this);
   halves->setChildrenCollapsible(false);
@@ -43,37 +74,13 @@ PageWindow::PageWindow(AppModel& app, const char* name, const char* title) : app
   halves->addWidget(results_);
   halves->setStretchFactor(1, 1);
   column->addWidget(halves, 1);
-  told_ = new QLabel(this);
-  told_->setObjectName("told");
-  told_->setTextFormat(Qt::PlainText);
-  told_->setWordWrap(true);
-  told_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  told_->hide();
-  column->addWidget(told_);
+  column->addWidget(told());
   foot_ = new QHBoxLayout();
   column->addLayout(foot_);
-  connect(new QShortcut(QKeySequence::Close, this), &QShortcut::activated, this, [this] { close(); });
-}
-
-void PageWindow::come_to_front() {
-  show();
-  setWindowState(windowState() & ~Qt::WindowMinimized);
-  raise();
-  activateWindow();
-}
-
-QPushButton* PageWindow::add_button(QBoxLayout& row, const char* name, const char* text, const char* tip,
-                                    std::function<void()> pressed) {
-  auto* button = new QPushButton(translated(text), this);
-  button->setObjectName(name);
-  button->setToolTip(translated(tip));
-  connect(button, &QPushButton::clicked, this, std::move(pressed));
-  row.addWidget(button);
-  return button;
 }
 
 void PageWindow::add_picture(LivePicture& picture, const char* name, const char* title) {
-  auto* view = new PictureView(picture, app_.workspace.latencies, results_);
+  auto* view = new PictureView(picture, app().workspace.latencies, results_);
   view->setObjectName(name);
   view->setAccessibleName(translated(title));
   results_->addTab(view, translated(title));
@@ -93,13 +100,8 @@ void PageWindow::end_choices() {
   scroll->setMinimumWidth(inside_->minimumSizeHint().width() + scroll->verticalScrollBar()->sizeHint().width());
 }
 
-void PageWindow::tell(const std::string& line) {
-  told_->setText(QString::fromStdString(line));
-  told_->setVisible(!line.empty());
-}
-
 void PageWindow::write_into(const char* title, const std::function<Result<void>(const std::string& folder)>& write) {
-  const std::string folder = asked_folder(app_, title, "-out");
+  const std::string folder = asked_folder(app(), title, "-out");
   if (folder.empty()) return;
   const auto done = write(folder);
   tell(done ? "written into " + folder : to_line(done.error()));

@@ -16,6 +16,7 @@
 #include "gui/panel_section.h"
 #include "gui/picture_view.h"
 #include "gui/translated.h"
+#include "session/listening.h"
 #include "session/recipe_preview.h"
 
 namespace sonar {
@@ -68,10 +69,10 @@ class RecipeDialog : public QDialog {
     return row;
   }
 
-  /// Above each other: a slice is wider than it is high.
+  /// Above each other: a slice is wider than it is high. Below each stands what detection finds.
   QVBoxLayout* previews(RecipeComparison& both) {
     auto* column = new QVBoxLayout();
-    const auto add = [&](RecipePreview& picture, const char* title, const char* name) {
+    const auto add = [&](RecipePreview& picture, const char* title, const QString& name) {
       auto* label = new QLabel(translated(title), this);
       auto* view = new PictureView(picture, both.workspace.latencies, this);
       view->setObjectName(name);
@@ -79,6 +80,15 @@ class RecipeDialog : public QDialog {
       view->setMinimumWidth(kPreviewWidth_px);
       column->addWidget(label);
       column->addWidget(view, 1);
+      auto* found = new QLabel(this);
+      found->setObjectName(name + "_schools");
+      found->setToolTip(
+          translated("What detection finds in this ping; some is left out when it is followed over pings"));
+      found->setMinimumHeight(found->fontMetrics().lineSpacing());  // the view above it keeps its size
+      const auto tell = [&picture, found] { found->setText(QString::fromStdString(picture.schools_text())); };
+      listening_.to(picture.changed(), tell);
+      tell();
+      column->addWidget(found);
     };
     add(both.in_force, to_translate("This ping under the recipe in force"), "preview_before");
     add(both.edited, to_translate("Under the edited recipe"), "preview_after");
@@ -153,6 +163,7 @@ class RecipeDialog : public QDialog {
   QCheckBox* changed_ = new QCheckBox(translated("Changed from default"), this);
   QScrollArea* list_ = new QScrollArea(this);
   QLabel* told_ = new QLabel(this);
+  Listening listening_;  // the last member: it ends first
 };
 
 }  // namespace

@@ -158,6 +158,7 @@ void add_status_line(QMainWindow& window, AppModel& app) {
   listening.to(workspace.dark.changed(), clear);
   clear();
   listening.to(workspace.preview.changed(), read);
+  listening.to(workspace.units.changed(), read);
   listening.to(workspace.measurement.changed(), read);
   listening.to(workspace.document.changes(), [read, status, told, bar, cancel, &workspace](DocumentChange change) {
     if (change == DocumentChange::ping || change == DocumentChange::state) read();

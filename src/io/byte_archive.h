@@ -86,6 +86,12 @@ class ArchiveReader {
   void operator()(T& value) {
     get(&value, sizeof(T));
   }
+  /// Any byte but 0 is true: as it lies it would be neither.
+  void operator()(bool& value) {
+    std::uint8_t byte = 0;
+    get(&byte, sizeof(byte));
+    value = byte != 0;
+  }
   void operator()(std::string& text) {
     text.resize(count());
     get(text.data(), text.size());

@@ -50,7 +50,9 @@ TEST(Csv, header_is_the_published_one) {
             "speed_water_smoothed_mps,course_water_smoothed_deg,relative_bearing_deg,ship_speed_mps,"
             "course_away_deg,speed_away_mps,speed_away_se_mps,speed_away_water_mps,time_to_cpa_s,cpa_m,"
             "wake_distance_m,depth_error_m,"
-            "extinction_loss_db,extinction_share,extinction_share_low,extinction_share_high,extinction_corrected\n");
+            "extinction_loss_db,extinction_share,extinction_share_low,extinction_share_high,extinction_corrected,"
+            "course_smoothed_se_deg,vertical_speed_smoothed_se_mps,speed_water_smoothed_se_mps,"
+            "course_water_smoothed_se_deg,course_away_se_deg,speed_away_water_se_mps,time_to_cpa_se_s,cpa_se_m\n");
 }
 
 TEST(Csv, rows_read_back) {

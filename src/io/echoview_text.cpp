@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/utf8.h"
@@ -41,6 +43,7 @@ struct Stretch {
   std::int64_t ping = 0;
   double near_m = 0.0;
   double far_m = 0.0;
+  std::vector<Run> runs;  ///< row = beam of the fan
 };
 
 std::vector<Stretch> stretches(const ObservationProduct& product, std::int64_t school, int fan) {
@@ -52,12 +55,15 @@ std::vector<Stretch> stretches(const ObservationProduct& product, std::int64_t s
     if (mask.ping_index < 0 || mask.ping_index >= std::ssize(product.pings)) continue;
     int first = range.count;
     int end = 0;
+    std::vector<Run> runs;
     for (const Run& run : mask.mask.runs) {
       if (run.row / beams != fan) continue;
       first = std::min(first, run.first_sample);
       end = std::max(end, run.end());
+      runs.push_back({run.row % beams, run.first_sample, run.count});
     }
-    if (first < end) out.push_back({mask.ping_index, range.range_m(first - 0.5), range.range_m(end - 0.5)});
+    if (runs.empty()) continue;
+    out.push_back({mask.ping_index, range.range_m(first - 0.5), range.range_m(end - 0.5), std::move(runs)});
   }
   return out;
 }
@@ -93,14 +99,35 @@ std::vector<Corner> polygon(const ObservationProduct& product, std::span<const S
   return near;
 }
 
-std::string region(const ObservationProduct& product, const SchoolRow& school, std::span<const Stretch> pings,
+/// What an outline does not hold: the fan, its beams, and the cells of each ping, so that they can be read back.
+std::vector<std::string> notes(const ObservationProduct& product, int fan, std::span<const Stretch> pings) {
+  int first = std::numeric_limits<int>::max();
+  int last = 0;
+  std::vector<std::string> lines(2);
+  for (const Stretch& one : pings) {
+    lines.push_back("cells " + echoview_time(product.pings[static_cast<std::size_t>(one.ping)].time));
+    for (const Run& run : one.runs) {
+      first = std::min(first, run.row);
+      last = std::max(last, run.row);
+      lines.back() += fmt::format(" {} {} {}", run.row, run.first_sample, run.count);
+    }
+  }
+  lines[0] = fmt::format("fan {}", fan);
+  lines[1] = fmt::format("beams {} {}", first, last);
+  return lines;
+}
+
+std::string region(const ObservationProduct& product, const SchoolRow& school, int fan, std::span<const Stretch> pings,
                    std::size_t number) {
   const std::vector<Corner> corners = polygon(product, pings);
   const auto [top, bottom] = std::ranges::minmax(corners, {}, &Corner::range_m);
   std::string out = fmt::format("{}13 {} {} 0 {} -1 1 {} {:.4f} {} {:.4f}{}", kEnd, corners.size(), number,
                                 kMadeElsewhere, echoview_time(corners.front().time), top.range_m,
                                 echoview_time(half_way(product, pings.back().ping, 1)), bottom.range_m, kEnd);
-  out += fmt::format("0{}0{}{}{}", kEnd, kEnd, school.species.empty() ? "school" : one_line(school.species), kEnd);
+  const std::vector<std::string> lines = notes(product, fan, pings);
+  out += fmt::format("{}{}", lines.size(), kEnd);
+  for (const std::string& line : lines) out += line + kEnd;
+  out += fmt::format("0{}{}{}", kEnd, school.species.empty() ? kNoSpecies : one_line(school.species), kEnd);
   for (const Corner& corner : corners) out += fmt::format("{} {:.4f} ", echoview_time(corner.time), corner.range_m);
   return out + fmt::format("{}{}{}/{}{}", kAnalysis, kEnd, product.observation, school.school_id, kEnd);
 }
@@ -116,7 +143,7 @@ std::string evr_text(const ObservationProduct& product, int fan) {
     for (std::size_t first = 0; first < pings.size();) {
       std::size_t end = first + 1;
       while (end < pings.size() && pings[end].ping == pings[end - 1].ping + 1) ++end;
-      regions += region(product, school, std::span(pings).subspan(first, end - first), ++number);
+      regions += region(product, school, fan, std::span(pings).subspan(first, end - first), ++number);
       first = end;
     }
   }

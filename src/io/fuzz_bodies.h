@@ -7,10 +7,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/check.h"
@@ -18,14 +22,20 @@
 #include "io/child_process.h"
 #include "io/csv.h"
 #include "io/csv_table.h"
+#include "io/echoview_reader.h"
+#include "io/fuzz_choices.h"
 #include "io/index_cache.h"
+#include "io/lsss_work.h"
 #include "io/nav_series.h"
 #include "io/nmea.h"
 #include "io/ping_source.h"
+#include "io/product_example.h"
 #include "io/raw_index.h"
+#include "io/sealed_file.h"
 #include "io/simrad/con1.h"
 #include "io/simrad/last_datagrams.h"
 #include "io/wire.h"
+#include "model/integration.h"
 #include "model/school.h"
 
 namespace sonar::fuzz {
@@ -128,12 +138,50 @@ void table_rows(const CsvTable& table) {
   SONAR_CHECK(rewritten(once) == once);
 }
 
-/// schools.csv or school_pings.csv
+/// A table that a verb wrote and another reads: schools, school_pings, and those of echo integration.
 inline void school_tables(std::string_view text) {
   const auto table = parse_csv(text, "fuzz");
   if (!table) return;
   table_rows<SchoolRow>(*table);
   table_rows<SchoolPingRow>(*table);
+  table_rows<EffortRow>(*table);
+  table_rows<NascRow>(*table);
+  table_rows<StratumRow>(*table);
+}
+
+/// Masks of a work file lie apart, in order, and within the grid that they are placed in; written, they are the same.
+inline void lsss_work(std::string_view text) {
+  ObservationProduct product = example::empty("obs-0001", 4);
+  product.schools.resize(1);
+  std::vector<TimeNs> times;
+  for (const PingNavigation& ping : product.pings) times.push_back(ping.time);
+  const GridRecord& record = *product.grid;
+  const std::vector<int> row_of_channel = record.grid.row_of_channel();
+  const auto placed = [&](std::string work, LsssNumbering numbering) {
+    const auto schools = parse_lsss_work(std::move(work), "fuzz", numbering);
+    if (!schools) return std::vector<LsssCells>{};
+    return place_lsss(*schools, record.grid, record.sample_count, times, "fuzz").value_or(std::vector<LsssCells>{});
+  };
+  for (const LsssNumbering numbering : {LsssNumbering::from_one, LsssNumbering::from_zero}) {
+    for (const LsssCells& cells : placed(std::string(text), numbering)) {
+      SONAR_CHECK(cells.ping_index >= 0 && cells.ping_index < std::ssize(product.pings) && !cells.runs.empty());
+      PingMask mask;
+      LsssRun before{-1, 0, 0};
+      for (const LsssRun& run : cells.runs) {
+        SONAR_CHECK(run.channel > before.channel ||
+                    (run.channel == before.channel && run.first_sample > before.first_sample + before.count));
+        const int row = row_of_channel.at(static_cast<std::size_t>(run.channel));
+        const std::int32_t samples = record.sample_count.at(static_cast<std::size_t>(row / record.grid.beams()));
+        SONAR_CHECK(run.first_sample >= 0 && run.count > 0 && run.first_sample + run.count <= samples);
+        mask.runs.push_back({row, run.first_sample, run.count});
+        before = run;
+      }
+      std::ranges::sort(mask.runs);
+      product.masks = {{0, cells.ping_index, mask}};
+      const auto again = placed(lsss_work_text(product, 0, numbering), numbering);
+      SONAR_CHECK(again.size() == 1 && again[0].ping_index == cells.ping_index && again[0].runs == cells.runs);
+    }
+  }
 }
 
 /// A stored index is taken whole or not at all; so are the same bytes behind a right check sum, which no mutation would make.
@@ -153,17 +201,97 @@ inline void index_cache(std::span<const std::byte> bytes) {
   take(sealed);
 }
 
-/// Whatever a reading child answers is something, within what was asked for, or nothing.
-inline void wire(std::span<const std::byte> bytes) {
-  const auto texts = wire::decoded<std::vector<std::string>>(bytes);
-  if (texts) SONAR_CHECK(std::ranges::equal(wire::encoded(*texts), bytes));
-  const auto numbers = wire::decoded<std::vector<double>>(bytes);
-  SONAR_CHECK(numbers.has_value() == (bytes.size() % sizeof(double) == 0));
-  constexpr std::uint64_t kMost = 1000;
-  const auto child = ChildProcess::start([&](int stream) { (void)say_all(stream, bytes); }, "fuzz");
-  if (!child) return;
-  const auto said = wire::hear(*child, kMost);
-  if (said) SONAR_CHECK(said->size() <= kMost);
+/// Regions that are taken have corners, and lie somewhere at the time of each, from above to below; notes tell cells that exist.
+inline void evr(std::string_view text) {
+  const auto regions = parse_evr(text, "fuzz");
+  if (!regions) return;
+  for (const EchoviewRegion& region : *regions) {
+    SONAR_CHECK(!region.corners.empty());
+    for (const EchoviewCorner& corner : region.corners) {
+      SONAR_CHECK(std::isfinite(corner.depth_m));
+      for (const DepthSpan& span : depths_at(region.corners, corner.time)) SONAR_CHECK(span.first_m <= span.last_m);
+    }
+    const auto cells = cells_of(region, "fuzz");
+    if (!cells) continue;
+    for (const EchoviewCells::InPing& ping : cells->pings) {
+      for (const EchoviewCells::InBeam& run : ping.runs) {
+        SONAR_CHECK(run.beam >= 0 && run.first_sample >= 0 && run.end() > run.first_sample);
+      }
+    }
+  }
 }
+
+/// A line that is taken goes forward in time.
+inline void evl(std::string_view text) {
+  const auto points = parse_evl(text, "fuzz");
+  if (!points) return;
+  for (std::size_t i = 0; i < points->size(); ++i) {
+    SONAR_CHECK(std::isfinite((*points)[i].depth_m));
+    SONAR_CHECK(i == 0 || (*points)[i].time >= (*points)[i - 1].time);
+  }
+  /// A head of a sealed file that says of its blocks what the choices say, under a right check sum.
+  inline std::vector<std::byte> forged_seal(std::string_view key, Choices & in) {
+    std::vector<std::byte> head;
+    for (const char c : std::string_view("SONARBLK")) head.push_back(static_cast<std::byte>(c));
+    const std::size_t blocks = in.byte() % 8;
+    const Hash128 of_key = hash_text(key);
+    for (const std::uint64_t number : {std::uint64_t{1}, static_cast<std::uint64_t>(blocks), of_key.high, of_key.low}) {
+      wire::put(head, number);
+    }
+    for (std::size_t i = 0; i < blocks; ++i) {
+      for (int number = 0; number < 3; ++number) wire::put(head, static_cast<std::uint64_t>(in.whole()));
+    }
+    const Hash128 sum = hash_bytes(head);
+    wire::put(head, sum.high);
+    wire::put(head, sum.low);
+    return head;
+  }
+
+  /// A file of the cache is read as it was written or not at all, whatever of it was changed; what a right check sum says of
+  /// blocks that are not there is not believed.
+  /// folder  to write into
+  inline void sealed_file(std::span<const std::byte> bytes, const std::filesystem::path& folder) {
+    const std::string key = "fuzz";
+    const std::filesystem::path file = folder / "sealed";
+    const auto write = [&](std::span<const std::byte> all) {
+      std::ofstream out(file, std::ios::binary | std::ios::trunc);
+      out.write(reinterpret_cast<const char*>(all.data()), static_cast<std::streamsize>(all.size()));
+    };
+    const auto read_all = [&] {
+      std::vector<std::vector<std::byte>> read;
+      const auto opened = SealedFile::open(file, key);
+      for (std::size_t i = 0; opened && i <= opened->blocks(); ++i) {
+        if (auto block = opened->block(i)) read.push_back(std::move(*block));
+      }
+      return read;
+    };
+    Choices in(bytes);
+    std::vector<std::byte> forged = forged_seal(key, in);
+    forged.insert(forged.end(), bytes.begin(), bytes.end());
+    write(forged);
+    (void)read_all();
+    const std::vector<std::vector<std::byte>> blocks{{bytes.begin(), bytes.end()}, {}, {std::byte{7}}};
+    std::filesystem::remove(file);
+    SealedFile::store(file, key, blocks);
+    SONAR_CHECK(read_all() == blocks);
+    std::fstream change(file, std::ios::in | std::ios::out | std::ios::binary);
+    change.seekp(static_cast<std::streamoff>(in.below(static_cast<std::size_t>(std::filesystem::file_size(file)))));
+    change.put(static_cast<char>(in.byte()));
+    change.close();
+    for (const auto& block : read_all()) SONAR_CHECK(std::ranges::find(blocks, block) != blocks.end());
+  }
+
+  /// Whatever a reading child answers is something, within what was asked for, or nothing.
+  inline void wire(std::span<const std::byte> bytes) {
+    const auto texts = wire::decoded<std::vector<std::string>>(bytes);
+    if (texts) SONAR_CHECK(std::ranges::equal(wire::encoded(*texts), bytes));
+    const auto numbers = wire::decoded<std::vector<double>>(bytes);
+    SONAR_CHECK(numbers.has_value() == (bytes.size() % sizeof(double) == 0));
+    constexpr std::uint64_t kMost = 1000;
+    const auto child = ChildProcess::start([&](int stream) { (void)say_all(stream, bytes); }, "fuzz");
+    if (!child) return;
+    const auto said = wire::hear(*child, kMost);
+    if (said) SONAR_CHECK(said->size() <= kMost);
+  }
 
 }  // namespace sonar::fuzz

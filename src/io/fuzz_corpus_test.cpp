@@ -6,6 +6,7 @@
 
 #include "base/test_corpus.h"
 #include "io/fuzz_bodies.h"
+#include "io/fuzz_currents.h"
 #include "io/fuzz_product.h"
 #include "io/fuzz_raster.h"
 
@@ -28,12 +29,24 @@ TEST(FuzzCorpus, Csv) {
   test::replay("csv", [](const std::string& text) { fuzz::csv(text); });
 }
 
+TEST(FuzzCorpus, Evr) {
+  test::replay("evr", [](const std::string& text) { fuzz::evr(text); });
+}
+
+TEST(FuzzCorpus, Evl) {
+  test::replay("evl", [](const std::string& text) { fuzz::evl(text); });
+}
+
 TEST(FuzzCorpus, IndexCache) {
   test::replay("index_cache", [](const std::string& bytes) { fuzz::index_cache(std::as_bytes(std::span(bytes))); });
 }
 
 TEST(FuzzCorpus, SchoolTables) {
   test::replay("school_tables", [](const std::string& text) { fuzz::school_tables(text); });
+}
+
+TEST(FuzzCorpus, LsssWork) {
+  test::replay("lsss_work", [](const std::string& text) { fuzz::lsss_work(text); });
 }
 
 TEST(FuzzCorpus, Product) {
@@ -45,6 +58,18 @@ TEST(FuzzCorpus, Product) {
 TEST(FuzzCorpus, ProductBytes) {
   const test::CorpusFolder folder("product_bytes");
   test::replay("product_bytes", [&](const std::string& bytes) { fuzz::product_bytes(bytes, folder.path()); });
+}
+
+TEST(FuzzCorpus, Currents) {
+  const test::CorpusFolder folder("currents");
+  test::replay("currents",
+               [&](const std::string& bytes) { fuzz::currents(std::as_bytes(std::span(bytes)), folder.path()); });
+}
+
+TEST(FuzzCorpus, SealedFile) {
+  const test::CorpusFolder folder("sealed");
+  test::replay("sealed_file",
+               [&](const std::string& bytes) { fuzz::sealed_file(std::as_bytes(std::span(bytes)), folder.path()); });
 }
 
 TEST(FuzzCorpus, Wire) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <system_error>
@@ -65,18 +64,6 @@ void store(const IndexCache& cache, const FileState& state, const RawIndex& inde
 }
 
 }  // namespace
-
-IndexCache IndexCache::of_user() {
-  // NOLINTBEGIN(concurrency-mt-unsafe): nobody sets it
-  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache == '/') {
-    return {fs::path(cache) / "sonar-explorer"};
-  }
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home == '/') {
-    return {fs::path(home) / ".cache" / "sonar-explorer"};
-  }
-  // NOLINTEND(concurrency-mt-unsafe)
-  return {};
-}
 
 void keep_index(const fs::path& path, const IndexCache& cache, const RawIndex& index) {
   const auto state = cache.folder.empty() ? std::nullopt : state_of(path);

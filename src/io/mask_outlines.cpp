@@ -47,7 +47,8 @@ GeoArea swept(const ObservationProduct& product, const Sector& sector) {
   return origin ? area_of(*united(footprints), *origin) : GeoArea{};
 }
 
-GeoArea school_area(const ObservationProduct& product, const Sector& sector, std::int64_t school_id) {
+GeoArea school_area(const ObservationProduct& product, const Sector& sector, std::int64_t school_id,
+                    const std::shared_ptr<const Refraction>& rays) {
   std::optional<Geographic> origin;
   std::vector<std::unique_ptr<OGRMultiPolygon>> parts;
   for (const SchoolMask& mask : product.masks) {
@@ -56,7 +57,7 @@ GeoArea school_area(const ObservationProduct& product, const Sector& sector, std
     const PingNavigation& ping = product.pings[static_cast<std::size_t>(mask.ping_index)];
     if (!placed(ping)) continue;
     if (!origin) origin = ping.transducer;
-    auto outline = united(mask_rings(sector, mask.mask, rad_from_deg(ping.heading_deg)));
+    auto outline = united(mask_rings(sector, mask.mask, rad_from_deg(ping.heading_deg), rays));
     shift(*outline, PlaneShift(ping.transducer, *origin));
     parts.push_back(std::move(outline));
   }
@@ -65,7 +66,7 @@ GeoArea school_area(const ObservationProduct& product, const Sector& sector, std
 
 }  // namespace
 
-ObservationOutlines map_outlines(const ObservationProduct& product) {
+ObservationOutlines map_outlines(const ObservationProduct& product, const std::shared_ptr<const Refraction>& rays) {
   ObservationOutlines out;
   out.observation = product.observation;
   std::optional<Sector> sector;
@@ -74,7 +75,8 @@ ObservationOutlines map_outlines(const ObservationProduct& product) {
     out.swept = swept(product, *sector);
   }
   for (const SchoolRow& school : product.schools) {
-    out.schools.push_back({school.school_id, sector ? school_area(product, *sector, school.school_id) : GeoArea{}});
+    out.schools.push_back(
+        {school.school_id, sector ? school_area(product, *sector, school.school_id, rays) : GeoArea{}});
   }
   return out;
 }
@@ -83,8 +85,10 @@ GeoArea swept_outline(const ObservationProduct& product) {
   return product.grid ? swept(product, product.grid->grid.sector(product.grid->range)) : GeoArea{};
 }
 
-GeoArea school_outline(const ObservationProduct& product, std::int64_t school_id) {
-  return product.grid ? school_area(product, product.grid->grid.sector(product.grid->range), school_id) : GeoArea{};
+GeoArea school_outline(const ObservationProduct& product, std::int64_t school_id,
+                       const std::shared_ptr<const Refraction>& rays) {
+  return product.grid ? school_area(product, product.grid->grid.sector(product.grid->range), school_id, rays)
+                      : GeoArea{};
 }
 
 }  // namespace sonar

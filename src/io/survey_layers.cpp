@@ -97,7 +97,8 @@ struct SurveyMapWriter::State {
 
   Result<void> make_layers(bool near_date_line);
   Result<void> add_observation(const ObservationProduct& product);
-  Result<void> add_schools(const ObservationProduct& product, const Sector* sector);
+  Result<void> add_schools(const ObservationProduct& product, const Sector* sector,
+                           const std::shared_ptr<const Refraction>& rays);
   Result<void> add_centres(const ObservationProduct& product);
   [[nodiscard]] double near(double longitude_deg) const {
     return near_longitude(longitude_deg, reference_deg.value_or(longitude_deg));
@@ -157,7 +158,8 @@ Result<void> SurveyMapWriter::State::add_observation(const ObservationProduct& p
   return added;
 }
 
-Result<void> SurveyMapWriter::State::add_schools(const ObservationProduct& product, const Sector* sector) {
+Result<void> SurveyMapWriter::State::add_schools(const ObservationProduct& product, const Sector* sector,
+                                                 const std::shared_ptr<const Refraction>& rays) {
   const auto attributes = columns_of(product.schools);
   for (std::size_t i = 0; i < product.schools.size(); ++i) {
     const SchoolRow& school = product.schools[i];
@@ -170,7 +172,7 @@ Result<void> SurveyMapWriter::State::add_schools(const ObservationProduct& produ
       std::unique_ptr<OGRPolygon> single;
       if (ping != nullptr && mask != nullptr && sector != nullptr) {
         if (!origin) origin = ping->transducer;
-        auto outline = united(mask_rings(*sector, *mask, rad_from_deg(ping->heading_deg)));
+        auto outline = united(mask_rings(*sector, *mask, rad_from_deg(ping->heading_deg), rays));
         single = in_one_piece(*outline);
         ToDegrees(ping->transducer, *reference_deg).apply(*single);
         shift(*outline, PlaneShift(ping->transducer, *origin));
@@ -223,14 +225,14 @@ Result<SurveyMapWriter> SurveyMapWriter::create(const std::filesystem::path& tar
   return SurveyMapWriter(std::move(state));
 }
 
-Result<void> SurveyMapWriter::add(const ObservationProduct& product) {
+Result<void> SurveyMapWriter::add(const ObservationProduct& product, const std::shared_ptr<const Refraction>& rays) {
   for (const PingNavigation& ping : product.pings) {
     if (!state_->reference_deg && ping.has_position()) state_->reference_deg = ping.transducer.longitude_deg;
   }
   std::optional<Sector> sector;
   if (product.grid) sector = product.grid->grid.sector(product.grid->range);
   auto added = state_->add_observation(product);
-  if (added) added = state_->add_schools(product, sector ? &*sector : nullptr);
+  if (added) added = state_->add_schools(product, sector ? &*sector : nullptr, rays);
   if (added) added = state_->add_centres(product);
   return added;
 }

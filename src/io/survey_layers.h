@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/result.h"
+#include "geo/frames.h"
 #include "model/product.h"
 
 namespace sonar {
@@ -37,8 +38,9 @@ class SurveyMapWriter {
   ~SurveyMapWriter();
 
   /// Adds one observation; its masks are needed. Call in the survey's order.
+  /// rays    along which schools' cells are bent; null = straight
   /// errors  io
-  Result<void> add(const ObservationProduct& product);
+  Result<void> add(const ObservationProduct& product, const std::shared_ptr<const Refraction>& rays = nullptr);
   /// Closes, flushes and renames. Without it nothing appears.
   /// errors  io, no_space
   Result<void> finish();

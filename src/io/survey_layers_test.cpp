@@ -6,14 +6,17 @@
 #include <ogrsf_frmts.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <numbers>
 
 #include "base/test_full_disk.h"
 #include "base/units.h"
+#include "geo/refraction.h"
 #include "io/atomic_file.h"
 #include "io/product_example.h"
 #include "io/table_columns.h"
@@ -328,6 +331,42 @@ TEST(Outline, beam_of_several_fans_is_one_ring) {
   mask.runs.insert(mask.runs.end(), above.runs.begin(), above.runs.end());
   EXPECT_EQ(mask_rings(sector, mask, 0.0).size(), 1U);
   EXPECT_TRUE(mask_rings(sector, PingMask{}, 0.0).empty());
+}
+
+// Speed falls by 2 m/s each metre from 1490 m/s at the transducer: with u = artanh of the dip's sine, which changes by 2 a
+// second, the level way on an arc is c / (2 cos dip) times the change of tanh u. The fan reaches from 10 to 20 degrees down,
+// samples 20 to 29 from 38 to 58 m.
+TEST(Outline, lies_where_sound_comes_from) {
+  const GridRecord record = example::grid();
+  const Sector sector = record.grid.sector(record.range);
+  const auto rays =
+      std::make_shared<const Refraction>(SoundProfile{{0.0, 1504.0}, {100.0, 1304.0}}, 7.0, 1490.0, 120.0);
+  double near_m = 1e9;
+  double far_m = 0.0;
+  for (const double dip_deg : {10.0, 20.0}) {
+    for (const double range_m : {38.0, 58.0}) {
+      const double u = std::atanh(std::sin(rad_from_deg(dip_deg)));
+      const double then = u + 2.0 * range_m / 1490.0;
+      const double level_m = 1490.0 / (2.0 * std::cos(rad_from_deg(dip_deg))) * (std::tanh(then) - std::tanh(u));
+      near_m = std::min(near_m, level_m);
+      far_m = std::max(far_m, level_m);
+    }
+  }
+  const auto reach = [&](const std::shared_ptr<const Refraction>& along) {
+    const std::vector<Ring> rings = mask_rings(sector, example::block(1, 1, 1, 20, 10), 0.3, along);
+    EXPECT_EQ(rings.size(), 1U);
+    std::pair<double, double> out{1e9, 0.0};
+    for (const PlanePoint& p : rings.at(0)) {
+      out.first = std::min(out.first, std::hypot(p.x, p.y));
+      out.second = std::max(out.second, std::hypot(p.x, p.y));
+    }
+    return out;
+  };
+  EXPECT_NEAR(reach(rays).first, near_m, 0.05);
+  EXPECT_NEAR(reach(rays).second, far_m, 0.05);
+  EXPECT_NEAR(reach(nullptr).first, 38.0 * std::cos(rad_from_deg(20.0)), 1e-6);
+  EXPECT_NEAR(reach(nullptr).second, 58.0 * std::cos(rad_from_deg(10.0)), 1e-6);
+  EXPECT_GT(std::abs(reach(rays).second - reach(nullptr).second), 0.2) << "bending is to be seen";
 }
 
 TEST(Outline, plane_shift_agrees_with_the_geodesic) {

@@ -19,15 +19,15 @@ std::optional<LocalFrame> LocalFrame::of(const ObservationProduct& product) {
   return LocalFrame(first->transducer);
 }
 
-std::optional<LocalFrame::Ping> LocalFrame::ping(const PingNavigation& ping) const {
-  return placed(ping) ? std::optional<Ping>(Ping(ping, origin_)) : std::nullopt;
+std::optional<LocalFrame::Ping> LocalFrame::ping(const PingNavigation& ping, const Placement& placement) const {
+  return placed(ping) ? std::optional<Ping>(Ping(placement, origin_)) : std::nullopt;
 }
 
-LocalFrame::Ping::Ping(const PingNavigation& ping, const Geographic& origin)
-    : into_(ping.transducer, origin), placement_(ping.placement()) {}
+LocalFrame::Ping::Ping(const Placement& ping, const Geographic& origin)
+    : into_(ping.transducer, origin), placement_(ping) {}
 
 Point<Enu> LocalFrame::Ping::place(const Point<Sonar>& p) const {
-  const Point<Enu> about = to_enu(p, placement_.heading_rad);
+  const Point<Enu> about = to_enu(levelled(p, placement_), placement_.heading_rad);
   const PlanePoint at = into_.apply({about.x, about.y});
   return {at.x, at.y, about.z - placement_.transducer_depth_m};
 }

@@ -21,15 +21,17 @@ class LocalFrame {
   /// From one ping's sector into the frame.
   class Ping {
    public:
-    Ping(const PingNavigation& ping, const Geographic& origin);
+    Ping(const Placement& ping, const Geographic& origin);
+    /// Levelled and bent as the placement has it.
     [[nodiscard]] Point<Enu> place(const Point<Sonar>& p) const;
 
    private:
     PlaneShift into_;
     Placement placement_;
   };
+  /// placement  of the ping, with how its beams turn and bend
   /// Empty where the ping has no position or no heading.
-  [[nodiscard]] std::optional<Ping> ping(const PingNavigation& ping) const;
+  [[nodiscard]] std::optional<Ping> ping(const PingNavigation& ping, const Placement& placement) const;
 
  private:
   explicit LocalFrame(const Geographic& origin) : origin_(origin) {}

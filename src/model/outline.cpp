@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 
 #include "base/units.h"
@@ -60,6 +61,22 @@ Interval level_interval(const Sector& sector, const Run& run, int fan) {
   return {r1 * std::max(0.0, steepest), r2 * std::max(0.0, flattest)};
 }
 
+/// The same along rays: of the cell row's corners.
+Interval bent_interval(const Sector& sector, const Run& run, int fan, const Placement& along) {
+  const AngleBounds e = sector.elevation_bounds(fan);
+  const RangeAxis& axis = sector.range();
+  Interval out{std::numeric_limits<double>::infinity(), 0.0};
+  for (const double elevation : {e.lower, std::clamp(0.0, e.lower, e.upper), e.upper}) {
+    for (const double sample : {run.first_sample - 0.5, run.end() - 0.5}) {
+      const double r = std::max(0.0, axis.range_m(sample));
+      const Point<Sonar> place = levelled(Sector::direction(elevation, 0.0) * r, along);
+      const double level_m = std::hypot(place.x, place.y);
+      out = {std::min(out.near_m, level_m), std::max(out.far_m, level_m)};
+    }
+  }
+  return out;
+}
+
 std::vector<Interval> joined(std::vector<Interval> intervals) {
   std::sort(intervals.begin(), intervals.end());
   std::vector<Interval> out;
@@ -96,11 +113,15 @@ Ring footprint(const GridRecord& record, const Sector& sector, double heading_ra
   return ring;
 }
 
-std::vector<Ring> mask_rings(const Sector& sector, const PingMask& mask, double heading_rad) {
+std::vector<Ring> mask_rings(const Sector& sector, const PingMask& mask, double heading_rad,
+                             const std::shared_ptr<const Refraction>& rays) {
   const int beams = sector.beams();
+  Placement along;
+  along.rays = rays;
   std::vector<std::vector<Interval>> of_beam(static_cast<std::size_t>(beams));
   for (const Run& run : mask.runs) {
-    const Interval interval = level_interval(sector, run, run.row / beams);
+    const int fan = run.row / beams;
+    const Interval interval = rays ? bent_interval(sector, run, fan, along) : level_interval(sector, run, fan);
     if (interval.far_m > interval.near_m) of_beam[static_cast<std::size_t>(run.row % beams)].push_back(interval);
   }
   std::vector<Ring> rings;

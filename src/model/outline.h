@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "geo/geodesic.h"
@@ -21,8 +22,10 @@ using Ring = std::vector<PlanePoint>;
 /// The cells of a mask seen from above, one ring for each beam and each connected interval of level range. The cells of
 /// all fans of a beam are united first: they overlap from above. Rings of neighbouring beams overlap by a hair (0.002
 /// degrees), so that their union has no slits.
-/// out  x east, y north about the transducer, m
-[[nodiscard]] std::vector<Ring> mask_rings(const Sector& sector, const PingMask& mask, double heading_rad);
+/// rays  along which the cells are bent; null = straight
+/// out   x east, y north about the transducer, m
+[[nodiscard]] std::vector<Ring> mask_rings(const Sector& sector, const PingMask& mask, double heading_rad,
+                                           const std::shared_ptr<const Refraction>& rays = nullptr);
 
 /// Where one ping's plane lies in the plane of another place: turned by the meridians' convergence, then shifted.
 /// Good to 1e-6 of the distance over tens of kilometres.

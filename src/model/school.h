@@ -104,6 +104,15 @@ struct SchoolPingRow : SchoolDescriptors {
   double extinction_share_low = kUnknown;
   double extinction_share_high = kUnknown;
   double extinction_corrected = kUnknown;
+  // Standard errors of movement at the ping (school/measure/movement.h).
+  double course_smoothed_se_deg = kUnknown;
+  double vertical_speed_smoothed_se_mps = kUnknown;
+  double speed_water_smoothed_se_mps = kUnknown;
+  double course_water_smoothed_se_deg = kUnknown;
+  double course_away_se_deg = kUnknown;
+  double speed_away_water_se_mps = kUnknown;
+  double time_to_cpa_se_s = kUnknown;
+  double cpa_se_m = kUnknown;
 };
 
 /// SchoolRow::ended_at_reach: neither end, its first ping, its last, or both.
@@ -258,6 +267,15 @@ void columns(Visitor& v, SchoolPingRow& r) {
   v("extinction_share_low", "1", r.extinction_share_low);
   v("extinction_share_high", "1", r.extinction_share_high);
   v("extinction_corrected", "1", r.extinction_corrected);
+  // Standard errors of movement at the ping.
+  v("course_smoothed_se_deg", "degrees", r.course_smoothed_se_deg);
+  v("vertical_speed_smoothed_se_mps", "m s-1", r.vertical_speed_smoothed_se_mps);
+  v("speed_water_smoothed_se_mps", "m s-1", r.speed_water_smoothed_se_mps);
+  v("course_water_smoothed_se_deg", "degrees", r.course_water_smoothed_se_deg);
+  v("course_away_se_deg", "degrees", r.course_away_se_deg);
+  v("speed_away_water_se_mps", "m s-1", r.speed_away_water_se_mps);
+  v("time_to_cpa_se_s", "s", r.time_to_cpa_se_s);
+  v("cpa_se_m", "m", r.cpa_se_m);
 }
 
 template <class Visitor>
@@ -324,7 +342,7 @@ void columns(Visitor& v, SchoolRow& r) {
 }
 
 /// Columns of movement, of both tables.
-inline constexpr std::array<std::string_view, 26> kMovementColumns{"speed_smoothed_mps",
+inline constexpr std::array<std::string_view, 34> kMovementColumns{"speed_smoothed_mps",
                                                                    "speed_smoothed_se_mps",
                                                                    "course_smoothed_deg",
                                                                    "vertical_speed_smoothed_mps",
@@ -349,7 +367,15 @@ inline constexpr std::array<std::string_view, 26> kMovementColumns{"speed_smooth
                                                                    "course_water_se_deg",
                                                                    "current_east_mps",
                                                                    "current_north_mps",
-                                                                   "current_se_mps"};
+                                                                   "current_se_mps",
+                                                                   "course_smoothed_se_deg",
+                                                                   "vertical_speed_smoothed_se_mps",
+                                                                   "speed_water_smoothed_se_mps",
+                                                                   "course_water_smoothed_se_deg",
+                                                                   "course_away_se_deg",
+                                                                   "speed_away_water_se_mps",
+                                                                   "time_to_cpa_se_s",
+                                                                   "cpa_se_m"};
 
 /// Columns that came after the first published tables: a file without them is whole, and has none of it.
 [[nodiscard]] constexpr bool is_later_column(std::string_view column) {

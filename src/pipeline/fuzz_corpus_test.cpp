@@ -29,6 +29,19 @@ TEST(FuzzCorpus, CalibrationCsv) {
   test::replay("calibration_csv", [](const std::string& text) { fuzz::calibration_csv(text); });
 }
 
+TEST(FuzzCorpus, SurveyTables) {
+  test::replay("survey_tables", [](const std::string& text) { fuzz::survey_tables(text); });
+}
+
+TEST(FuzzCorpus, WorkFolder) {
+  const test::CorpusFolder folder("work_folder");
+  test::replay("work_folder", [&](const std::string& text) { fuzz::work_folder(text, folder.path()); });
+}
+
+TEST(FuzzCorpus, MeasuredPings) {
+  test::replay("measured_pings", [](const std::string& bytes) { fuzz::measured_pings(bytes); });
+}
+
 TEST(FuzzCorpus, SoundProfile) {
   test::replay("sound_profile", [](const std::string& text) { fuzz::sound_profile(text); });
 }

@@ -2,12 +2,14 @@
 #include "publish/chart_layers.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "io/depth_raster.h"
 #include "io/mask_outlines.h"
 #include "pipeline/recipe/recipe.h"
+#include "pipeline/stages/placements.h"
 
 namespace sonar {
 namespace {
@@ -35,11 +37,14 @@ ObservationOutlines school_outlines(const ObservationProduct& product, const Obs
   ObservationOutlines out;
   out.observation = product.observation;
   out.swept = kept.swept;
+  std::optional<ProductPlacements> placements;
   for (const SchoolRow& school : product.schools) {
     const auto old = std::find_if(kept.schools.begin(), kept.schools.end(),
                                   [&](const auto& one) { return one.school_id == school.school_id; });
     const bool stays = before != nullptr && old != kept.schools.end() && same_masks(*before, product, school.school_id);
-    out.schools.push_back({school.school_id, stays ? old->area : school_outline(product, school.school_id)});
+    if (!stays && !placements) placements.emplace(product);
+    out.schools.push_back(
+        {school.school_id, stays ? old->area : school_outline(product, school.school_id, placements->rays())});
   }
   return out;
 }

@@ -61,7 +61,7 @@ Result<FrameDescription> chart_frame(const std::vector<DrawnObservation*>& obser
   std::vector<ObservationProduct> tables;
   for (const DrawnObservation* one : observations) tables.push_back(tables_of(one->product(), options));
   const ChartParams& asked = options.kind.chart;
-  const auto data = chart_data(tables, {asked.table, asked.x, asked.y, options.display.rejected});
+  const auto data = chart_data(tables, {asked.table, asked.x, asked.y, options.display.rejected, options.units});
   if (!data) return pass_on(data);
   ChartStyle style;
   style.bins = asked.bins;

@@ -44,14 +44,16 @@ double ratio_db(double value, double of) { return value > 0.0 && of > 0.0 ? db_f
 struct AxisOfShip {
   AgainstShip over;
   std::string_view column;
-  const char* label;
+  std::string_view label;
+  std::string_view unit;
 };
-constexpr std::array<AxisOfShip, 3> kAxes{{{AgainstShip::range, "range_m", "range from the ship (m)"},
-                                           {AgainstShip::bearing, "relative_bearing_deg", "bearing from the bow (°)"},
-                                           {AgainstShip::time, "time_to_cpa_s", "time to closest approach (s)"}}};
+constexpr std::array<AxisOfShip, 3> kAxes{{{AgainstShip::range, "range_m", "range from the ship", "m"},
+                                           {AgainstShip::bearing, "relative_bearing_deg", "bearing from the bow", "°"},
+                                           {AgainstShip::time, "time_to_cpa_s", "time to closest approach", "s"}}};
 
 struct PooledFigure {
-  const char* label;
+  std::string_view label;
+  std::string_view unit;
   double AvoidanceRow::*low;
   double AvoidanceRow::*median;
   double AvoidanceRow::*high;
@@ -59,10 +61,10 @@ struct PooledFigure {
 };
 using A = AvoidanceRow;
 constexpr std::array<PooledFigure, 4> kPooled{
-    {{"speed (m/s)", &A::speed_smoothed_p25_mps, &A::speed_smoothed_p50_mps, &A::speed_smoothed_p75_mps},
-     {"off straight away (°)", &A::course_away_p25_deg, &A::course_away_p50_deg, &A::course_away_p75_deg},
-     {"depth (m)", &A::depth_p25_m, &A::depth_p50_m, &A::depth_p75_m, true},
-     {kSvLabel, &A::sv_mean_p25_db, &A::sv_mean_p50_db, &A::sv_mean_p75_db}}};
+    {{"speed", "m/s", &A::speed_smoothed_p25_mps, &A::speed_smoothed_p50_mps, &A::speed_smoothed_p75_mps},
+     {"off straight away", "°", &A::course_away_p25_deg, &A::course_away_p50_deg, &A::course_away_p75_deg},
+     {"depth", "m", &A::depth_p25_m, &A::depth_p50_m, &A::depth_p75_m, true},
+     {"Sv", "dB re 1 m\u207B\u00B9", &A::sv_mean_p25_db, &A::sv_mean_p50_db, &A::sv_mean_p75_db}}};
 
 /// The schools that are asked for; without any the one with most echo.
 std::vector<std::int64_t> chosen_schools(const DrawnObservation& observation, const PictureOptions& options) {
@@ -269,13 +271,15 @@ PanelChartData distribution_chart(std::span<const SchoolCurves> schools, std::st
     }
   }
   const WaterRound round;
-  return {std::move(title),
-          "Sv as recorded, weighted by volume, " + pings,
-          fmt::format("Water: {} beams and {:g} m round a school, less a gap of {} beam and {:g} m; the background is "
-                      "not taken off.",
-                      round.beams, round.range_m, round.gap_beams, round.gap_m),
-          1,
-          {std::move(panel)}};
+  const Unit unit = theme.units.length();
+  return {
+      std::move(title),
+      "Sv as recorded, weighted by volume, " + pings,
+      fmt::format("Water: {} beams and {} round a school, less a gap of {} beam and {}; the background is not taken "
+                  "off.",
+                  round.beams, round_text(round.range_m, unit), round.gap_beams, round_text(round.gap_m, unit)),
+      1,
+      {std::move(panel)}};
 }
 
 PanelChartData tolerance_chart(std::span<const SchoolCurves> schools, std::string title, const std::string& ping,
@@ -322,12 +326,16 @@ PanelChartData avoidance_chart(std::span<const AvoidanceRow> rows, AgainstShip o
                      {}};
   for (const AxisOfShip& axis : kAxes) {
     if (over != AgainstShip::all && over != axis.over) continue;
+    const Unit x = shown_unit(axis.unit, theme.units);
     for (const PooledFigure& figure : kPooled) {
-      ChartPanel panel{axis.label, figure.label, 1.0, 0.1, figure.downwards, {}};
+      const Unit y = shown_unit(figure.unit, theme.units);
+      ChartPanel panel{
+          with_unit(axis.label, x), with_unit(figure.label, y), x.of(1.0), y.of(0.1), figure.downwards, {}};
       ChartCurve curve{"", theme.accent, false, true, {}};
       for (const AvoidanceRow& row : rows) {
         if (row.against != axis.column) continue;
-        curve.points.push_back({0.5 * (row.from + row.to), row.*figure.median, row.*figure.low, row.*figure.high});
+        curve.points.push_back(
+            {x.of(0.5 * (row.from + row.to)), y.of(row.*figure.median), y.of(row.*figure.low), y.of(row.*figure.high)});
       }
       panel.curves.push_back(std::move(curve));
       out.panels.push_back(std::move(panel));

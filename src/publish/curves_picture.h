@@ -11,6 +11,8 @@
 #include "base/work.h"
 #include "geo/sector.h"
 #include "model/avoidance.h"
+#include "model/echo_statistics.h"
+#include "model/filtered_ping.h"
 #include "pipeline/stages/school_curves.h"
 #include "publish/picture_options.h"
 #include "publish/picture_source.h"

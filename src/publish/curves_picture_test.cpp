@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -90,6 +91,33 @@ TEST(PanelCharts, WithoutRoomForAllTheRestIsSaidToBeLeftOut) {
   ASSERT_TRUE(chart) << to_line(chart.error());
   ASSERT_LT(chart->plots.size(), 3U);
   for (const PanelChart::Place& place : chart->places) EXPECT_LT(place.panel, chart->plots.size());
+}
+
+// 61 m are 200 ft; 0.514 m/s are 1 kn; Sv stays.
+TEST(AvoidanceChart, IsReadInTheUnitsThatAreChosen) {
+  AvoidanceRow row;
+  row.against = "range_m";
+  row.from = 30.48;
+  row.to = 91.44;
+  row.depth_p50_m = 30.48;
+  row.speed_smoothed_p50_mps = 1852.0 / 3600.0;
+  row.sv_mean_p50_db = -40.0;
+  Theme theme = light_theme({1200, 500});
+  const PanelChartData si = avoidance_chart(std::span(&row, 1), AgainstShip::range, "all", theme);
+  theme.units = {LengthUnit::feet, SpeedUnit::knots};
+  const PanelChartData read = avoidance_chart(std::span(&row, 1), AgainstShip::range, "all", theme);
+  ASSERT_EQ(read.panels.size(), 4U);
+  EXPECT_EQ(si.panels[0].x_label, "range from the ship (m)");
+  EXPECT_EQ(si.panels[0].y_label, "speed (m/s)");
+  EXPECT_EQ(si.panels[3].y_label, "Sv (dB re 1 m\u207B\u00B9)");
+  EXPECT_EQ(si.panels[2].curves[0].points[0].y, 30.48);
+  EXPECT_EQ(read.panels[0].x_label, "range from the ship (ft)");
+  EXPECT_EQ(read.panels[0].y_label, "speed (kn)");
+  EXPECT_EQ(read.panels[2].y_label, "depth (ft)");
+  EXPECT_NEAR(read.panels[0].curves[0].points[0].x, 200.0, 1e-9);
+  EXPECT_NEAR(read.panels[0].curves[0].points[0].y, 1.0, 1e-12);
+  EXPECT_NEAR(read.panels[2].curves[0].points[0].y, 100.0, 1e-9);
+  EXPECT_EQ(read.panels[3].curves[0].points[0].y, -40.0);
 }
 
 }  // namespace

@@ -150,6 +150,7 @@ std::optional<EchogramPyramid> kept_echogram(const EchogramEntry& entry, int lev
   range.bins = bins;
   const auto last = static_cast<int>(file->blocks()) - 2;
   const int finest = std::clamp(level, 0, last);
+  if (finest > 30) return std::nullopt;  // no survey has as many pings as its columns would hold
   std::vector<EchogramLevel> levels;
   for (int i = finest; i <= last; ++i) {
     const auto bytes = file->block(static_cast<std::size_t>(i) + 1);

@@ -3,9 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstddef>
 #include <span>
+#include <string>
+#include <vector>
 
+#include "io/atomic_file.h"
+#include "io/echoview_reader.h"
 #include "publish/drawn_echogram.h"
 #include "view/echograms/stacked_timelines.h"
 
@@ -33,8 +38,31 @@ TimelineStyle style_of(const DrawnEchogram& drawn, const PictureOptions& options
   return style;
 }
 
-TimelineObservation shown(const DrawnEchogram& drawn) {
+/// A line of depth over time, and what its file is called.
+struct DrawnLine {
+  std::vector<TimelinePoint> points;
+  std::string name;
+};
+
+/// errors  as read_file(), parse_evl()
+Result<DrawnLine> line_of(const PictureOptions& options) {
+  DrawnLine line;
+  if (options.line.empty() || !options.kind.echogram.depth) return line;
+  const auto text = read_file(options.line);
+  if (!text) return pass_on(text);
+  const auto points = parse_evl(*text, options.line.string());
+  if (!points) return pass_on(points);
+  for (const EchoviewLinePoint& point : *points) {
+    line.points.push_back({point.time, point.known() ? point.depth_m : std::nan("")});
+  }
+  line.name = printable(options.line.filename().string());
+  return line;
+}
+
+TimelineObservation shown(const DrawnEchogram& drawn, const DrawnLine& line) {
   TimelineObservation out{&drawn.product, drawn.echogram.get()};
+  out.line = line.points;
+  out.line_name = line.name;
   out.refused = drawn.product.rejected;
   out.schools = drawn.schools;
   const auto& pings = drawn.product.pings;
@@ -86,6 +114,8 @@ PictureOptions options_below(const PictureOptions& options, const DrawnObservati
 Result<FrameDescription> echogram_frame(PictureSource& source, DrawnObservation& observation,
                                         const PictureOptions& options, Work& work) {
   const EchogramParams& params = options.kind.echogram;
+  const auto line = line_of(options);
+  if (!line) return pass_on(line);
   DrawnObservation* below = nullptr;
   PictureOptions own = options;
   if (!params.below.empty()) {
@@ -98,14 +128,14 @@ Result<FrameDescription> echogram_frame(PictureSource& source, DrawnObservation&
   const auto drawn = drawn_echogram(observation, own, work);
   if (!drawn) return pass_on(drawn);
   if (below == nullptr) {
-    const TimelineObservation one = shown(*drawn);
+    const TimelineObservation one = shown(*drawn, *line);
     return timeline(std::span(&one, 1), style_of(*drawn, options), options.size, theme_of(options));
   }
   const auto other = drawn_echogram(*below, options_below(options, *below), work);
   if (!other) return pass_on(other);
-  TimelinePanel lower{shown(*other), style_of(*other, options)};
+  TimelinePanel lower{shown(*other, *line), style_of(*other, options)};
   lower.observation.label = other->product.observation + ", " + other->of;
-  return stacked_timelines({shown(*drawn), style_of(*drawn, options)}, lower, options.size, theme_of(options));
+  return stacked_timelines({shown(*drawn, *line), style_of(*drawn, options)}, lower, options.size, theme_of(options));
 }
 
 }  // namespace sonar

@@ -11,7 +11,8 @@ namespace sonar {
 /// With `below` another observation's under the same time axis. Without raw files the schools alone.
 /// source       where the other observation is looked for
 /// observation  of the source
-/// errors       usage: no such fan, beam, channel, ping, school or other observation, no log; bad_parameter: too small
+/// errors       usage: no such fan, beam, channel, ping, school or other observation, no log; bad_parameter: too small;
+///              not_found, io, format: of the line
 [[nodiscard]] Result<FrameDescription> echogram_frame(PictureSource& source, DrawnObservation& observation,
                                                       const PictureOptions& options, Work& work);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "publish/chart_seabed.h"
 #include "publish/mask_silhouettes.h"
 #include "publish/renderer_choice.h"
+#include "publish/sample_looks.h"
 #include "publish/volume_figure.h"
 #include "render/refinement.h"
 
@@ -106,6 +108,7 @@ struct LiveVolume::State {
   std::shared_ptr<const std::vector<SceneLine>> trail_lines;  ///< as drawn last
   ChartSeabed chart{kChartSpare, kChartNodes};
   std::string chart_notice;
+  std::shared_ptr<const std::vector<int>> shadow_from;  ///< of `drawn`; null = not shown
 
   void let_go() {
     refinement.reset();
@@ -119,6 +122,7 @@ struct LiveVolume::State {
     context = {};
     trails = {};
     trail_lines.reset();
+    shadow_from.reset();
     chart = ChartSeabed{kChartSpare, kChartNodes};
   }
 
@@ -126,6 +130,7 @@ struct LiveVolume::State {
   Result<void> set(const LiveVolumeInput& input, const VolumeCut& wanted_cut, bool outlined);
   VolumeFigure figure_of(const LiveVolumeInput& input);
   void take_trails(VolumeFigure& figure, const LiveVolumeInput& input, const VolumePlace& place);
+  void take_shadow(VolumeFigure& figure, const LiveVolumeInput& input);
   Result<void> draw(const LiveVolumeInput& input, const VolumePlace& place, const CancelToken& token, Work& better,
                     const Show& show);
   void draw_context(const VolumeFigure& figure, const LiveVolumeInput& input, const VolumePlace& place,
@@ -203,6 +208,7 @@ VolumeFigure LiveVolume::State::figure_of(const LiveVolumeInput& input) {
   figure.title_line = input.title_line;
   if (input.next) figure.mark = between_words(input);
   figure.refused = input.refused;
+  figure.currents = input.currents;
   figure.fitted = fitted_seabed(*input.staged);
   figure.fan = input.fan;
   figure.beam = input.beam;
@@ -236,6 +242,24 @@ void LiveVolume::State::take_trails(VolumeFigure& figure, const LiveVolumeInput&
   figure.schools_tracked = !input.trails.schools.empty();
 }
 
+/// Worked out again where another picture is about others: the eye alone moves more often. Between pings there is none.
+void LiveVolume::State::take_shadow(VolumeFigure& figure, const LiveVolumeInput& input) {
+  const DisplayParams& display = input.options.display;
+  const bool wanted = display.shadow && !input.next;
+  const bool same = shadow_from && drawn.staged == input.staged && drawn.sector == input.sector &&
+                    drawn.options.display.shadow_db == display.shadow_db && same_masks(drawn.masks, input.masks) &&
+                    drawn.tried == input.tried;
+  if (!wanted) {
+    shadow_from.reset();
+  } else if (!same) {
+    // What is only tried casts no shadow.
+    const std::span whole(input.masks.data(), input.masks.size() - std::min(input.tried, input.masks.size()));
+    shadow_from = std::make_shared<const std::vector<int>>(
+        shadow_of_schools(*input.staged, *input.sector, whole, input.extinction, display));
+  }
+  figure.shadow_from = shadow_from;
+}
+
 Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumePlace& place, const CancelToken& token,
                                      Work& better, const Show& show) {
   const bool other_sector = drawn.sector != input.sector;
@@ -245,6 +269,7 @@ Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumeP
   }
   VolumeFigure figure = figure_of(input);
   take_trails(figure, input, place);
+  take_shadow(figure, input);
   const auto camera = volume_camera(*input.sector, input.options, place.rays);
   if (!camera) return pass_on(camera);
   const VolumeCut wanted_cut = volume_cut(*input.sector, input.options, *camera, input.fan, input.beam);
@@ -252,6 +277,7 @@ Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumeP
     // What the renderer holds now is not known.
     volume.reset();
     table.reset();
+    shadow_from.reset();
     return done;
   }
   figure.volume = volume;

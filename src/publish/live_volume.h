@@ -14,6 +14,7 @@
 #include "base/task_thread.h"
 #include "base/work.h"
 #include "model/navigation.h"
+#include "pipeline/recipe/recipe.h"
 #include "pipeline/stages/engine.h"
 #include "publish/picture_options.h"
 #include "view/frame_description.h"
@@ -40,6 +41,8 @@ struct LiveVolumeInput {
   std::vector<std::string> names;                     ///< [mask] beside it in the picture; empty = none
   std::vector<std::pair<Rgba8, std::string>> legend;  ///< of the masks
   std::vector<RefusedMark> refused;
+  CurrentColumn currents;         ///< below the ship
+  ExtinctionParams extinction;    ///< by which schools cast a shadow, where the options show it
   TrailSubject trails;            ///< of options.volume that are shown
   int fan = 0;                    ///< of the slice from above
   int beam = 0;                   ///< of the slice from the side

@@ -11,6 +11,7 @@
 #include "io/mask_outlines.h"
 #include "model/school_totals.h"
 #include "pipeline/integrate/transects.h"
+#include "pipeline/stages/placements.h"
 #include "publish/chart_layers.h"
 #include "publish/drawn_schools.h"
 #include "view/maps/observation_map.h"
@@ -92,7 +93,8 @@ Result<FrameDescription> survey_map_frame(const std::vector<DrawnObservation>& o
   style.left_out -= counted_schools(products).size();
   std::vector<ObservationOutlines> outlines(products.size());
   work.for_each(static_cast<std::int64_t>(products.size()), [&](std::int64_t i) {
-    outlines[static_cast<std::size_t>(i)] = map_outlines(products[static_cast<std::size_t>(i)]);
+    const ObservationProduct& product = products[static_cast<std::size_t>(i)];
+    outlines[static_cast<std::size_t>(i)] = map_outlines(product, ProductPlacements(product).rays());
   });
   if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
   style.sv_low_db = options.display.scale.low_db;

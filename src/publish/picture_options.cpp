@@ -93,8 +93,11 @@ Result<std::optional<Camera>> named_camera(const CameraParams& params) {
 }
 
 Theme theme_of(const PictureOptions& options) {
-  if (options.panel) return panel_theme(*options.panel, options.dark);
-  return with_text(options.dark ? dark_theme(options.size) : light_theme(options.size), options.least_text_px);
+  Theme theme = options.panel ? panel_theme(*options.panel, options.dark)
+                              : with_text(options.dark ? dark_theme(options.size) : light_theme(options.size),
+                                          options.least_text_px);
+  theme.units = options.units;
+  return theme;
 }
 
 Result<TransferFunction> view_curve(const PictureOptions& options) {

@@ -32,6 +32,7 @@ struct PictureOptions {
   double least_text_px = 0.0;      ///< of a pixel of the size
   std::optional<PanelLook> panel;  ///< of a page: text and lines have these sizes, colour bars are left to the page
   bool dark = false;
+  Units units{};  ///< that lengths and speeds are read in: a window's; programs leave SI
   DisplayParams display = plain_display();
   bool limits_given = false;  ///< the scale's limits are a choice: kinds with limits of their own take them too
   std::optional<TransferFunction> transfer;  ///< view curve instead of the scale's colours
@@ -47,6 +48,7 @@ struct PictureOptions {
   PictureParams kind;                           ///< what is asked for one kind alone
   std::filesystem::path depth_raster;           ///< seabed of volumes and maps; empty = none
   std::filesystem::path transects;              ///< table of them for the survey map; empty = none
+  std::filesystem::path line;                   ///< Echoview's (.evl), over an echogram against depth; empty = none
 };
 
 /// Refuses what no picture can be made of, before anything is read.

@@ -119,14 +119,15 @@ void describe(Visitor& v, DisplayParams& p) {
            .flag = "refused",
            .suits = "slice- volume observation-map timeline echogram"});
   v.field("shadow", p.shadow,
-          {.text = "hatch what lies in the shadow of the schools that are shown, by the recipe's extinction",
-           .suits = "slice-"});
+          {.text = "show what lies in the shadow of the schools that are shown, by the recipe's extinction: hatched in "
+                   "slices, as lines along its beams in the volume",
+           .suits = "slice- volume"});
   v.field("shadow_db", p.shadow_db,
           {.unit = "dB",
            .min = 0.1,
            .max = 20,
            .text = "two-way loss from which a sample lies in shadow",
-           .suits = "slice-"});
+           .suits = "slice- volume"});
   v.field("grid_lines", p.grid_lines, {.text = "lines of the axes across slices", .flag = "grid", .suits = "slice-"});
   v.field("north_up", p.north_up,
           {.text = "north points up in slices from above; off = the bow does",

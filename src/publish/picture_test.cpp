@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <string>
@@ -92,6 +93,20 @@ TEST_F(Pictures, TheSameTwiceIsTheSame) {
     EXPECT_EQ(texts(*first), texts(*second));
     EXPECT_EQ(first->items.size(), second->items.size());
   }
+}
+
+TEST_F(Pictures, AnEchogramAgainstDepthTakesALineOfEchoview) {
+  const fs::path file = test::scratch_path("seabed.evl");
+  std::ofstream(file) << "EVBD 3 13.0\n2\n20200102 0800000000 20 3\n20200103 0800000000 40 3\n";
+  options_.line = file;
+  options_.kind.echogram.depth = true;
+  auto frame = picture(PictureKind::echogram);
+  ASSERT_TRUE(frame) << to_line(frame.error());
+  EXPECT_THAT(texts(*frame), testing::Contains(file.filename().string()));
+  std::ofstream(file) << "EVBD 3 13.0\n2\n20200102 0800000000 deep 3\n";
+  refused(PictureKind::echogram, "line 3: expected CCYYMMDD", [](PictureOptions&) {});
+  fs::remove(file);
+  refused(PictureKind::echogram, file.string(), [](PictureOptions&) {});
 }
 
 TEST_F(Pictures, BadChoicesAreRefusedInOneLine) {
@@ -260,6 +275,27 @@ TEST_F(Pictures, VolumesSayWhatBearingsStartFrom) {
   EXPECT_THAT(texts(*picture(PictureKind::volume)), testing::Contains("masks of schools; true bearings"));
   options_.volume.context = false;
   EXPECT_THAT(texts(*picture(PictureKind::volume)), testing::Contains("masks of schools"));
+}
+
+// What a window exports is read in its units; programs leave SI.
+TEST_F(Pictures, EveryKindIsReadInTheUnitsThatAreChosen) {
+  const auto metres = testing::AnyOf(testing::EndsWith(" m"), testing::HasSubstr("(m)"), testing::HasSubstr(" m "));
+  for (const PictureKind kind : {PictureKind::volume, PictureKind::propagation, PictureKind::timeline,
+                                 PictureKind::chart, PictureKind::report}) {
+    options_.kind.chart.y = "depth_m";
+    options_.units = {};
+    const auto si = picture(kind);
+    options_.units = {LengthUnit::feet, SpeedUnit::knots};
+    const auto feet = picture(kind);
+    ASSERT_TRUE(si && feet);
+    EXPECT_THAT(texts(*si), testing::Contains(metres));
+    EXPECT_THAT(texts(*feet), testing::Not(testing::Contains(metres)));
+    EXPECT_THAT(texts(*feet), testing::Contains(testing::AnyOf(testing::HasSubstr(" ft"), testing::HasSubstr("(ft)"))));
+  }
+  const auto report = picture(PictureKind::report);
+  EXPECT_THAT(texts(*report), testing::IsSupersetOf({"Depth ft", "Length ft"})) << "whole: they have room";
+  options_.units.lengths = LengthUnit::fathoms;
+  EXPECT_THAT(texts(*picture(PictureKind::report)), testing::IsSupersetOf({"Depth fm", "Length fm"}));
 }
 
 }  // namespace

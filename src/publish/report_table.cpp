@@ -21,14 +21,15 @@ struct Column {
   const char* head;
   double width;  ///< share of the table's
   bool number;
+  bool length = false;  ///< its unit stands behind its head
 };
 constexpr std::array<Column, 12> kColumns{{{"No.", 0.04, true},
                                            {"School", 0.105, false},
                                            {"First seen (UTC)", 0.128, false},
                                            {"Latitude", 0.092, false},
                                            {"Longitude", 0.098, false},
-                                           {"Depth m", 0.064, true},
-                                           {"Length m", 0.072, true},
+                                           {"Depth", 0.064, true, true},
+                                           {"Length", 0.072, true, true},
                                            {"Sv dB", 0.058, true},
                                            {"Backsc. m\u00B2", 0.092, true},
                                            {"Pings", 0.05, true},
@@ -47,7 +48,7 @@ std::string three_digits(double value) {
   return fmt::format("{:.{}f}", value, std::max(0, 2 - static_cast<int>(std::floor(std::log10(value)))));
 }
 
-std::array<std::string, kColumns.size()> cells(const ReportSchool& s) {
+std::array<std::string, kColumns.size()> cells(const ReportSchool& s, const Unit& length) {
   constexpr double kStep_deg = 1.0 / 3600.0;
   const bool placed = std::isfinite(s.latitude) && std::isfinite(s.longitude);
   return {s.survey_school > 0 ? fmt::format("{}", s.survey_school) : std::string("\u2013"),
@@ -55,8 +56,8 @@ std::array<std::string, kColumns.size()> cells(const ReportSchool& s) {
           clock_text(s.first_time, false),
           placed ? latitude_text(s.latitude, kStep_deg) : "\u2013",
           placed ? longitude_text(s.longitude, kStep_deg) : "\u2013",
-          decimals(s.depth_m, 1),
-          decimals(s.length_m, 0),
+          decimals(length.of(s.depth_m), 1),
+          decimals(length.of(s.length_m), 0),
           decimals(s.sv_mean_db, 1),
           three_digits(s.backscatter_m2),
           fmt::format("{}", s.pings),
@@ -68,9 +69,10 @@ std::array<std::string, kColumns.size()> cells(const ReportSchool& s) {
 void add_cell(FrameDescription& page, double left, double width, double y, const std::string& words, bool number,
               Rgba8 colour) {
   constexpr double kGap = 5.0;
+  constexpr double kLeast = 1.5;  // between a number and what stands left of it
   page.items.emplace_back(text_item({number ? left + width - kGap : left, y},
-                                    elided(words, kReportText_px, width - kGap), kReportText_px, colour,
-                                    number ? TextAnchor::right : TextAnchor::left));
+                                    elided(words, kReportText_px, width - (number ? kLeast : kGap)), kReportText_px,
+                                    colour, number ? TextAnchor::right : TextAnchor::left));
 }
 
 }  // namespace
@@ -92,13 +94,17 @@ void add_report_table(FrameDescription& page, const PixelRect& place, std::span<
     y += kReportRow_px;
   };
   std::array<std::string, kColumns.size()> heads;
-  std::ranges::transform(kColumns, heads.begin(), [](const Column& column) { return std::string(column.head); });
+  const Unit length = theme.units.length();
+  std::ranges::transform(kColumns, heads.begin(), [&length](const Column& column) {
+    return column.length ? fmt::format("{} {}", column.head, length.name) : std::string(column.head);
+  });
   row(heads, theme.muted);
   const double under = place.y + kReportRow_px - 0.5;
   page.items.emplace_back(line_item({place.x, under}, {place.x + place.width, under}, theme.axis, 0.7));
   const std::size_t room = report_rows(place.height);
   const bool all = schools.size() <= room;
-  for (const ReportSchool& school : schools.first(all ? schools.size() : room - 1)) row(cells(school), theme.text);
+  for (const ReportSchool& school : schools.first(all ? schools.size() : room - 1))
+    row(cells(school, length), theme.text);
   if (all) return;
   page.items.emplace_back(
       text_item({place.x, y}, fmt::format("and {} that are weaker", count_of(schools.size() - (room - 1), "school")),
@@ -148,8 +154,9 @@ void add_report_depths(FrameDescription& page, const PixelRect& place, std::span
     if (std::isfinite(school.depth_m)) deepest = std::max(deepest, school.depth_m);
   }
   if (!(deepest > 0.0)) return;
-  // About ten bars, each a round number of metres.
-  const double step = nice_ticks(0.0, deepest, 12).step;
+  // About ten bars, each a round number of the unit of lengths.
+  const Unit unit = theme.units.length();
+  const double step = nice_ticks(0.0, unit.of(deepest), 12).step * unit.si;
   std::vector<int> bins(static_cast<std::size_t>(std::floor(deepest / step)) + 1);
   for (const ReportSchool& school : schools) {
     if (std::isfinite(school.depth_m) && school.depth_m >= 0.0) ++bins[static_cast<std::size_t>(school.depth_m / step)];
@@ -159,7 +166,7 @@ void add_report_depths(FrameDescription& page, const PixelRect& place, std::span
   const double em = theme.text_px;
   plot.place = {place.x + 4.0 * em, place.y + 1.2 * em, place.width - 5.0 * em, place.height - 4.4 * em};
   plot.x = {0.0, 1.05 * most, "schools", false};
-  plot.y = {0.0, step * static_cast<double>(bins.size()), "depth (m)", false};
+  plot.y = length_axis(0.0, step * static_cast<double>(bins.size()), "depth", theme);
   for (std::size_t i = 0; i < bins.size(); ++i) {
     if (bins[i] == 0) continue;
     const PixelPoint from = plot.at(0.0, step * (static_cast<double>(i) + 0.1));

@@ -74,13 +74,13 @@ std::optional<double> weak_below(const DisplayParams& display) {
   return display.weak == NoiseLook::shown ? std::nullopt : std::optional(display.weak_below_db);
 }
 
-std::vector<int> shadow_of_schools(const StagedPing& ping, const Sector& sector, const std::vector<MaskLayer>& masks,
-                                   const Recipe& recipe, const DisplayParams& display) {
+std::vector<int> shadow_of_schools(const StagedPing& ping, const Sector& sector, std::span<const MaskLayer> masks,
+                                   const ExtinctionParams& extinction, const DisplayParams& display) {
   std::vector<const PingMask*> schools;
   for (const MaskLayer& layer : masks) {
     if (layer.mask != nullptr) schools.push_back(layer.mask.get());
   }
-  return shadow_from(ping, sector, schools, recipe.measure.extinction, display.shadow_db);
+  return shadow_from(ping, sector, schools, extinction, display.shadow_db);
 }
 
 }  // namespace sonar

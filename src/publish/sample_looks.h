@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/sample_flags.h"
@@ -28,9 +29,9 @@ namespace sonar {
 /// Below which signal-to-noise samples carry low_snr, dB; empty where weak ones look as others do.
 [[nodiscard]] std::optional<double> weak_below(const DisplayParams& display);
 
-/// SliceData::shadow_from of the masks that are drawn.
+/// SliceData::shadow_from of the masks that are drawn, also of ContextParams.
 [[nodiscard]] std::vector<int> shadow_of_schools(const StagedPing& ping, const Sector& sector,
-                                                 const std::vector<MaskLayer>& masks, const Recipe& recipe,
+                                                 std::span<const MaskLayer> masks, const ExtinctionParams& extinction,
                                                  const DisplayParams& display);
 
 }  // namespace sonar

@@ -17,16 +17,6 @@ namespace {
 
 constexpr PixelSize kSize{1500, 1000};
 
-/// Angle between two directions that are told by their cosines on the array's face.
-double angle_deg(const FaceDirection& a, const FaceDirection& b) {
-  const auto off_face = [](const FaceDirection& d) {
-    return std::sqrt(std::max(0.0, 1.0 - d.across * d.across - d.up * d.up));
-  };
-  // By the chord: the arc's cosine tells small angles badly.
-  const double chord = std::hypot(a.across - b.across, a.up - b.up, off_face(a) - off_face(b));
-  return deg_from_rad(2.0 * std::asin(std::min(1.0, 0.5 * chord)));
-}
-
 SphereChartBeam chart_beam(const SphereCalibration& made, const CalibratedBeam& beam) {
   SphereChartBeam out;
   out.channel = beam.before.channel;
@@ -50,13 +40,17 @@ SphereChartBeam chart_beam(const SphereCalibration& made, const CalibratedBeam& 
 
 }  // namespace
 
+std::string sphere_words(const SphereCalibration& made, const Units& units) {
+  const Unit unit = units.length();
+  return fmt::format("used in {} of {} at {:.1f} to {}; residuals {:.3f} dB", made.used,
+                     count_of(static_cast<std::size_t>(made.pings), "ping"), unit.of(made.range_from_m),
+                     quantity_text(made.range_to_m, 1, unit), made.fit.residual_rms_db);
+}
+
 SphereChartData sphere_chart_data(const SphereCalibration& made, const SphereRunParams& params) {
   SphereChartData out;
-  out.title = fmt::format("{}: sphere of {}, {:.1f} mm", made.observations.front(), params.sphere.material.text,
-                          params.sphere.diameter_m * 1e3);
-  out.words = fmt::format("used in {} of {} at {:.1f} to {:.1f} m; residuals {:.3f} dB", made.used,
-                          count_of(static_cast<std::size_t>(made.pings), "ping"), made.range_from_m, made.range_to_m,
-                          made.fit.residual_rms_db);
+  out.title = fmt::format("{}: sphere of {}", made.observations.front(), sphere_text(params));
+  out.words = sphere_words(made);
   for (const CalibratedBeam& beam : made.beams) {
     out.fans = std::max(out.fans, beam.fan + 1);
     out.beams_a_fan = std::max(out.beams_a_fan, beam.beam + 1);
@@ -65,8 +59,7 @@ SphereChartData sphere_chart_data(const SphereCalibration& made, const SphereRun
   for (std::size_t i = 0; i < made.levels.size(); ++i) {
     if (!std::isfinite(made.fit.residual_db[i])) continue;
     const auto beam = static_cast<std::size_t>(made.levels[i].beam);
-    const FaceDirection& sphere = made.fit.directions[static_cast<std::size_t>(made.levels[i].ping)];
-    out.residuals.push_back({beam, angle_deg(sphere, made.fit.beams[beam].centre), made.fit.residual_db[i]});
+    out.residuals.push_back({beam, off_axis_deg(made, i), made.fit.residual_db[i]});
   }
   return out;
 }

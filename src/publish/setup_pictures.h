@@ -18,6 +18,8 @@ namespace sonar {
 /// Angles off the axis are between the fitted direction of the sphere in a ping and that of the beam; residuals are of the
 /// levels that the fit used.
 [[nodiscard]] SphereChartData sphere_chart_data(const SphereCalibration& made, const SphereRunParams& params);
+/// Of what the calibration is made, as the chart has it below its title.
+[[nodiscard]] std::string sphere_words(const SphereCalibration& made, const Units& units = {});
 /// errors  as sphere_chart() and write_picture()
 [[nodiscard]] Result<void> write_sphere_picture(const SphereChartData& data, const SphereLook& look,
                                                 const std::filesystem::path& file);

@@ -27,11 +27,11 @@ int known_percent(const SeabedPatch& bed) {
 }
 
 /// What the seabed's lines are and how its relief is lit.
-std::string seabed_words(const SeabedPatch& bed, double room_px, double text_px) {
-  const double step = seabed_line_step_m(bed);
+std::string seabed_words(const SeabedPatch& bed, double room_px, double text_px, const Units& units) {
+  const double step = seabed_line_step_m(bed, units);
   if (!(step > 0.0)) return {};
   const double times = relief_exaggeration(bed);
-  const std::string lines = fmt::format("; seabed lines every {:g} m", step);
+  const std::string lines = "; seabed lines every " + round_text(step, units.length());
   std::string relief;
   if (times > 1.5) relief = fmt::format(", lit as if {:.0f} times as steep", times);
   if (text_width_px((lines + relief).c_str(), text_px) < room_px) return lines + relief;
@@ -70,7 +70,8 @@ std::string view_line(const VolumeFigure& figure, const PictureOptions& options,
   }
   if (figure.seabed) {
     const double text_px = place.theme.text_px;
-    line += seabed_words(*figure.seabed, place.layout.title.width - text_width_px(line.c_str(), text_px), text_px);
+    line += seabed_words(*figure.seabed, place.layout.title.width - text_width_px(line.c_str(), text_px), text_px,
+                         options.units);
   }
   return line;
 }
@@ -102,9 +103,13 @@ void add_colour_bars(FrameDescription& frame, const VolumeFigure& figure, const 
     below.height = std::max(8.0, below.height - above.height - gap);
   }
   if (data_too) add_colour_bar(frame, above, colour_bar(colours_of(options)), theme);
-  if (depths)
-    add_colour_bar(frame, below, colour_bar(seabed_colours(), depths->first, depths->second, "seabed depth (m)", true),
+  if (depths) {
+    const Unit unit = theme.units.length();
+    add_colour_bar(frame, below,
+                   colour_bar(seabed_colours(), unit.of(depths->first), unit.of(depths->second),
+                              with_unit("seabed depth", unit), true),
                    theme);
+  }
 }
 
 /// Of the refused marks that are seen, in the picture; as many as `figure.refused`, NaN = not seen.
@@ -152,7 +157,7 @@ std::optional<PixelRect> add_scale_bar(FrameDescription& frame, const VolumePlac
                                        std::span<const ConvexOutline> kept_clear) {
   const Theme& theme = place.theme;
   const PixelSize size{static_cast<int>(place.rect.width), static_cast<int>(place.rect.height)};
-  const auto bar = distance_bar(camera, size, std::min(0.25 * size.width, 14.0 * theme.text_px));
+  const auto bar = distance_bar(camera, size, std::min(0.25 * size.width, 14.0 * theme.text_px), theme.units.length());
   if (!bar) return std::nullopt;
   const double gap = 0.6 * theme.text_px;
   const PixelRect inner{place.rect.x + gap, place.rect.y + gap, place.rect.width - 2.0 * gap,

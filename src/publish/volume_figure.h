@@ -10,6 +10,7 @@
 #include "base/result.h"
 #include "base/work.h"
 #include "model/navigation.h"
+#include "pipeline/recipe/recipe.h"
 #include "pipeline/stages/engine.h"
 #include "publish/picture_options.h"
 #include "render/context_picture.h"
@@ -34,6 +35,8 @@ struct VolumeFigure {
   std::shared_ptr<const SeabedPatch> seabed{};             ///< drawn where it is given, with a scale of its depths
   bool schools_tracked = false;                            ///< some of `trails` may be schools'
   std::shared_ptr<const std::vector<SceneLine>> trails{};  ///< of ship and schools; null = none
+  CurrentColumn currents{};                                ///< below the ship; none = no arrows
+  std::shared_ptr<const std::vector<int>> shadow_from{};   ///< as ContextParams has it
   std::optional<FittedSeabed> fitted{};                    ///< of this ping's echoes; drawn where `seabed` is not given
   int fan = 0;                                             ///< of the slice from above
   int beam = 0;                                            ///< of the slice from the side
@@ -55,6 +58,10 @@ struct VolumeFigure {
                                    int beam);
 /// The seabed as detection has found it in a ping; empty where it has not.
 [[nodiscard]] std::optional<FittedSeabed> fitted_seabed(const StagedPing& staged);
+/// What arrows below the ship tell of the recipe's water velocities; none where the options want none, and without
+/// position or heading.
+[[nodiscard]] CurrentColumn volume_currents(const Recipe& recipe, const Sector& sector,
+                                            const PingNavigation& navigation, const VolumeParams& params);
 /// Whether drawn_volume() is the same for both.
 [[nodiscard]] bool same_volume(const PictureOptions& a, const PictureOptions& b);
 

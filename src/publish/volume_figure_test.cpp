@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <string>
 #include <utility>
@@ -17,6 +18,8 @@
 
 namespace sonar {
 namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Schools all over a ping; the third one is selected.
 VolumeFigure schools_alone(int schools) {
@@ -147,6 +150,47 @@ TEST(VolumeFigure, TheLegendSaysWhichSeabedIsShown) {
   EXPECT_NE(words_of(schools_alone(13)).find("fuzzy area"), std::string::npos);
   options.volume.seabed = false;
   EXPECT_EQ(words_of(schools_alone(2)).find("seabed"), std::string::npos);
+  EXPECT_EQ(words_of(figure).find("shadow"), std::string::npos);
+  figure.shadow_from = std::make_shared<const std::vector<int>>(56, 20);
+  EXPECT_NE(words_of(figure).find("in the shadow of schools"), std::string::npos);
+}
+
+// A profile at the ship tells of 10 to 30 m, and recipes let it hold 20 m farther: depths of which nothing is told have no
+// arrow. Between two profiles it is linear in time, as it is for schools.
+TEST(VolumeFigure, ArrowsOfTheCurrentStandWhereItIsTold) {
+  Recipe recipe;
+  PingNavigation ship;
+  ship.time = 100 * kSecondNs;
+  ship.transducer = {60.0, 5.0};
+  ship.heading_deg = 0.0;
+  ship.transducer_depth_m = 7.0;
+  recipe.current_profiles = {{0, ship.transducer, {{10.0, 0.0, 0.1}, {30.0, 0.0, 0.3}}},
+                             {400 * kSecondNs, ship.transducer, {{10.0, 0.4, 0.1}, {30.0, 0.4, 0.3}}}};
+  const Sector sector = slice_example::hand_sector();
+  VolumeFigure figure = schools_alone(1);
+  figure.navigation = ship;
+  figure.currents = volume_currents(recipe, sector, ship, {});
+  ASSERT_EQ(figure.currents.at.size(), 2U) << "20 and 40 m of 20, 40, ... 180";
+  EXPECT_NEAR(figure.currents.at[0].east_mps, 0.1, 1e-12);
+  EXPECT_NEAR(figure.currents.at[0].north_mps, 0.2, 1e-12);
+  EXPECT_EQ(figure.currents.at[1].depth_m, 40.0);
+  EXPECT_NEAR(figure.currents.at[1].north_mps, 0.3, 1e-12) << "the last bin holds below it";
+  EXPECT_NEAR(figure.currents.fastest_mps, 0.5, 1e-12);
+  PictureOptions options;
+  const auto told = [&] {
+    for (const LegendRow& row : volume_legend(figure, options, {0.0, 0.0, 600.0, 400.0}, theme_of(options))) {
+      if (row.words.starts_with("current below the ship: 0.5 m/s is 50 m long")) return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(told());
+  options.volume.context = false;
+  EXPECT_FALSE(told()) << "they stand round the volume";
+  VolumeParams off;
+  off.current_arrows = false;
+  EXPECT_EQ(volume_currents(recipe, sector, ship, off), CurrentColumn{});
+  ship.heading_deg = kNaN;
+  EXPECT_EQ(volume_currents(recipe, sector, ship, {}), CurrentColumn{}) << "nobody knows which way they point";
 }
 
 // Lines go down to the chart where there is one, else to the plane where that was seen, else nowhere.

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "view/label_room.h"
@@ -31,6 +33,12 @@ void add_surroundings(std::vector<LegendRow>& rows, const VolumeFigure& figure, 
   } else if (options.volume.context && options.volume.seabed && figure.fitted) {
     rows.push_back({area, theme.land, "seabed, fitted to the ping's echoes"});
   }
+  if (!options.volume.context) return;
+  if (figure.shadow_from) rows.push_back({whole_line, shadow_colour(theme), "in the shadow of schools"});
+  const double heading_deg = figure.navigation.heading_deg;
+  const auto turned = std::isnan(heading_deg) ? std::nullopt : std::optional(heading_deg);
+  const std::string current = current_words(figure.sector(), figure.currents, turned);
+  if (!current.empty()) rows.push_back({whole_line, current_colour(), current});
 }
 
 void add_trails(std::vector<LegendRow>& rows, const VolumeFigure& figure, const PictureOptions& options,

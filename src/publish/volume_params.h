@@ -41,6 +41,7 @@ struct VolumeParams {
   bool context = true;
   DropLines drop_lines = DropLines::selected;
   bool seabed = true;
+  bool current_arrows = true;
   bool slice_planes = true;
   VolumeClip clip = VolumeClip::none;
   bool earth_fixed = false;
@@ -88,6 +89,9 @@ void describe(Visitor& v, VolumeParams& p) {
       "seabed", p.seabed,
       {.text = "show the seabed: of the depth chart where one is chosen, else the plane fitted to the ping's echoes",
        .tier = Tier::basic});
+  v.field("current_arrows", p.current_arrows,
+          {.text = "show the current below the ship as arrows by depth, where the recipe has water velocities",
+           .tier = Tier::basic});
   v.field("slice_planes", p.slice_planes,
           {.text = "show where the slices from above and from the side lie", .tier = Tier::basic});
   v.choice("clip", p.clip, kVolumeClipNames,

@@ -13,6 +13,7 @@
 #include "publish/drawn_schools.h"
 #include "publish/mask_silhouettes.h"
 #include "publish/renderer_choice.h"
+#include "publish/sample_looks.h"
 #include "publish/volume_figure.h"
 #include "render/refinement.h"
 #include "view/slices/slice.h"
@@ -102,6 +103,7 @@ Result<VolumeFigure> prepare(DrawnObservation& observation, const PictureOptions
   if (auto placed = place_slices(out, *sector, *ping, options); !placed) return pass_on(placed);
   out.refused = drawn_refused(observation, *sector, ping->ping_index, options);
   out.navigation = ping->navigation;
+  out.currents = volume_currents(observation.recipe(), *sector, out.navigation, options.volume);
   take_trails(out, observation, *sector, ping->ping_index, options, place);
   out.samples = ping->staged != nullptr;
   out.searched = observation.has_product();
@@ -115,6 +117,10 @@ Result<VolumeFigure> prepare(DrawnObservation& observation, const PictureOptions
     const VolumeCut cut = volume_cut(*sector, options, *camera, out.fan, out.beam);
     out.volume = drawn_volume(*sector, *ping->staged, options, cut, depth);
     out.fitted = fitted_seabed(*ping->staged);
+    if (options.display.shadow) {
+      out.shadow_from = std::make_shared<const std::vector<int>>(shadow_of_schools(
+          *ping->staged, *sector, out.masks, observation.recipe().measure.extinction, options.display));
+    }
   } else {
     const Shape3 shape{sector->fans(), sector->beams(), sector->range().count};
     // Weakest of all: something for the masks to lie in, which is never shown itself.

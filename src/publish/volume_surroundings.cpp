@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/stages/current_column.h"
 #include "publish/volume_figure.h"
+#include "view/volume/earth_pose.h"
 
 namespace sonar {
 
@@ -25,6 +27,13 @@ std::optional<FittedSeabed> fitted_seabed(const StagedPing& staged) {
   return FittedSeabed{found.offset_m, found.slope_x, found.slope_y, found.min_x, found.max_x, found.min_y, found.max_y};
 }
 
+CurrentColumn volume_currents(const Recipe& recipe, const Sector& sector, const PingNavigation& navigation,
+                              const VolumeParams& params) {
+  if (!params.current_arrows || recipe.current_profiles.empty() || !on_earth(navigation)) return {};
+  const std::vector<double> depths_m = current_depths(sector, navigation.transducer_depth_m);
+  return {current_column(recipe, navigation, depths_m), fastest_current_mps(recipe.current_profiles)};
+}
+
 namespace {
 
 /// z of the seabed under a place; NaN where it is not known.
@@ -39,7 +48,7 @@ double seabed_z_m(const VolumeFigure& figure, const Point<Sonar>& place) {
   return seen ? bed.z_at(place.x, place.y) : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::vector<SchoolPlace> school_places(const VolumeFigure& figure, DropLines drop_lines) {
+std::vector<SchoolPlace> school_places(const VolumeFigure& figure, DropLines drop_lines, const Unit& unit) {
   std::vector<SchoolPlace> out;
   for (std::size_t i = 0; i < figure.masks.size() && i < figure.names.size(); ++i) {
     const MaskLayer& layer = figure.masks[i];
@@ -56,7 +65,8 @@ std::vector<SchoolPlace> school_places(const VolumeFigure& figure, DropLines dro
       for (Point<Sonar>& p : place->footprint) p.z = seabed_z_m(figure, p);
     }
     if (place->selected) {
-      place->name += fmt::format(": {:.0f} m deep", place->middle.z + figure.navigation.transducer_depth_m);
+      const double depth_m = place->middle.z + figure.navigation.transducer_depth_m;
+      place->name += fmt::format(": {} deep", quantity_text(depth_m, 0, unit));
     }
     out.push_back(std::move(*place));
   }
@@ -70,6 +80,7 @@ ContextParams volume_surroundings(const VolumeFigure& figure, const PictureOptio
   ContextParams params;
   params.sector_frame = params.range_rings = params.sea_surface = params.ship = params.depth_axis =
       options.volume.context;
+  params.units = options.units;
   params.ship_length_m = options.volume.ship_length_m;
   params.transducer_depth_m = navigation.transducer_depth_m;
   if (const double heading = navigation.heading_deg; !std::isnan(heading)) params.heading_deg = heading;
@@ -79,7 +90,9 @@ ContextParams volume_surroundings(const VolumeFigure& figure, const PictureOptio
     params.top_fan = figure.fan;
     params.side_beam = figure.beam;
   }
-  params.schools = school_places(figure, options.volume.drop_lines);
+  params.schools = school_places(figure, options.volume.drop_lines, options.units.length());
+  params.currents = figure.currents;
+  params.shadow_from = figure.shadow_from;
   params.trails = figure.trails;
   return params;
 }

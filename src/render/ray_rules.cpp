@@ -55,8 +55,15 @@ double sample_phase(int x, int y, std::uint32_t jitter_frame) {
 
 PixelPoint pixel_shift(std::uint32_t jitter_frame) {
   if (jitter_frame == 0) return {0.0, 0.0};
-  const PixelPoint at = spread(jitter_frame);
-  return {at.x - 0.5, at.y - 0.5};
+  // Sixteen frames take the middles of a pixel's 4 x 4 parts, far ones after each other: bits of x and y by turns.
+  const std::uint32_t n = jitter_frame - 1;
+  const auto bit = [n](int i) { return n >> i & 1U; };
+  const std::uint32_t column = 2 * bit(0) + bit(2);
+  const std::uint32_t row = 2 * (bit(0) ^ bit(1)) + (bit(2) ^ bit(3));
+  // The next sixteen take other places in these parts.
+  const std::uint32_t round = n / 16;
+  return {0.25 * (column + fract(0.5 + reversed(round, 2))) - 0.5,
+          0.25 * (row + fract(0.5 + reversed(round, 3))) - 0.5};
 }
 
 std::array<std::array<float, 3>, kSkyRays> sky_rays(std::uint32_t jitter_frame) {

@@ -46,8 +46,15 @@ inline constexpr float kFaceIndex = 2e-3F;  ///< within so much of an index of t
 /// fract(fract(52.9829189 fract(0.06711056 x + 0.00583715 y)) + 0.61803399 frame), x, y of the full picture.
 [[nodiscard]] double sample_phase(int x, int y, std::uint32_t jitter_frame);
 
+/// Whether a series of frames moves the samples along the rays: where something adds up from sample to sample, which shows
+/// in stripes else. A first hit and a maximum are found between the samples anyway; moved, they only differ from frame to
+/// frame where a sample meets noise: 38 dB instead of 99 against sixteen rays a pixel, and no nearer to finer steps.
+/// masked  their cores add up
+[[nodiscard]] constexpr bool moves_samples(RayMode mode, bool masked) { return accumulates(mode) || masked; }
+
 /// Where in its pixel a frame's rays stand, off the middle, -0.5..0.5 in x and y; (0, 0) for frame 0. The same for all
-/// pixels, so that the mean of n frames is a picture of n rays a pixel, evenly spread (Halton's sequence to the bases 2
+/// pixels. Sixteen frames stand in the middles of a pixel's 4 x 4 parts: their mean is the picture of sixteen rays a pixel
+/// that is four times as large, reduced. The next sixteen stand elsewhere in these parts (Halton's sequence to the bases 2
 /// and 3).
 [[nodiscard]] PixelPoint pixel_shift(std::uint32_t jitter_frame);
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace sonar {
 namespace {
@@ -22,6 +24,25 @@ TEST(RayRules, FramesTakeOtherPlacesInThePixel) {
   }
   EXPECT_LT(std::hypot(mean.x, mean.y), 0.05);
   for (const int count : quarter) EXPECT_NEAR(count, 4, 1);
+}
+
+/// So many frames are the rays of a picture four times as large; the next so many stand in the same parts, elsewhere.
+TEST(RayRules, SixteenFramesAreTheRaysOfALargerPicture) {
+  for (const std::uint32_t round : {0U, 1U, 5U}) {
+    std::set<std::pair<int, int>> parts;
+    for (std::uint32_t n = 1; n <= 16; ++n) {
+      const PixelPoint at = pixel_shift(16 * round + n);
+      const double x = 4.0 * (at.x + 0.5);
+      const double y = 4.0 * (at.y + 0.5);
+      parts.insert({static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y))});
+      if (round > 0) continue;
+      EXPECT_DOUBLE_EQ(x - std::floor(x), 0.5);
+      EXPECT_DOUBLE_EQ(y - std::floor(y), 0.5);
+    }
+    EXPECT_EQ(parts.size(), 16U);
+    for (const auto& [x, y] : parts) EXPECT_TRUE(x >= 0 && x < 4 && y >= 0 && y < 4);
+  }
+  EXPECT_NE(pixel_shift(1), pixel_shift(17));
 }
 
 /// Rays of equal share: their mean cosine is that of the cosine law, 2/3, and they lean to no side.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/array.h"
+#include "model/grow_params.h"
 #include "model/mask.h"
 
 namespace sonar {
@@ -59,9 +60,6 @@ struct IndexBox {
 
 /// Smallest box round a mask; empty for an empty mask.
 [[nodiscard]] IndexBox box_of(const PingMask& mask, int beams);
-
-/// Which voxels touch: the 6 that share a face, or all 26 around.
-enum class Connectivity { faces, all };
 
 /// Neighbouring rows (fan * beams + beam) of a row, itself excluded: 4 for faces, 8 for all; fewer at borders.
 struct NeighbourRows {

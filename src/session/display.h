@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/describe.h"
+#include "model/grow_params.h"
 #include "pipeline/recipe/recipe.h"
 #include "publish/picture_params.h"
 

@@ -268,6 +268,13 @@ void Document::use_recipe(Recipe recipe) {
   read({survey()->raw_gone.empty() ? paths() : named(), {}, back_to});
 }
 
+Result<void> Document::use_named_recipe(const std::string& path_or_preset) {
+  auto recipe = named_recipe(path_or_preset);
+  if (!recipe) return pass_on(recipe);
+  use_recipe(std::move(*recipe));
+  return {};
+}
+
 /// The one that was chosen for a survey before, else the usual one.
 Recipe Document::recipe_of(const std::vector<std::filesystem::path>& folders, const CancelToken& token) {
   const auto kept = kept_recipe(session_folders(folders));

@@ -14,6 +14,7 @@
 #include "base/result.h"
 #include "base/task_thread.h"
 #include "base/work.h"
+#include "model/index_cache.h"
 #include "pipeline/recipe/recipe.h"
 #include "pipeline/survey/survey.h"
 #include "pipeline/tasks/results_alone.h"
@@ -78,6 +79,8 @@ class Document {
   }
   /// Opens the survey under another recipe, and keeps that beside its journals; before one is open, the next.
   void use_recipe(Recipe recipe);
+  /// errors  as named_recipe()
+  Result<void> use_named_recipe(const std::string& path_or_preset);
   /// Of the survey that is open, before use_recipe() last changed it: what takes that back. Empty = it was not changed.
   [[nodiscard]] const std::optional<Recipe>& recipe_before() const { return recipe_before_; }
   /// Takes the survey with what came since; what is looked at and what was chosen stays. False, and nothing is taken, where
@@ -195,6 +198,9 @@ class Document {
   /// known when all are measured.
   [[nodiscard]] const std::vector<SurveyNumber>& survey_numbers() const { return survey_->survey_numbers_; }
   [[nodiscard]] bool all_measured() const { return survey_->all_measured(); }
+  /// Why schools of an open observation could not be measured, as it was told; empty = nothing is known against it.
+  /// open_all() tries again.
+  [[nodiscard]] const std::string& unmeasured() const { return survey_->unmeasured(); }
   void keep_survey_numbers(std::vector<SurveyNumber> numbers) { survey_->keep_survey_numbers(std::move(numbers)); }
 
   /// Whether figures are on their way.

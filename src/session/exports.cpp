@@ -226,7 +226,8 @@ Result<PictureOptions> picture_options(const Workspace& workspace, PictureKind k
   PictureOptions options;
   options.size = {file.paper.width_px, file.paper.height_px};
   options.scale = file.paper.scale;
-  options.dark = workspace.dark() && kind != PictureKind::report;  // paper is white
+  options.dark = workspace.dark() && kind != PictureKind::report;      // paper is white
+  options.units = workspace.units();
   options.display = workspace.display.values();
   options.volume = workspace.volume.values();
   options.kind = file.kind;

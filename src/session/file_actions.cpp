@@ -269,6 +269,7 @@ std::string menu_text(std::string_view format) {
   if (format == "vtu") return "Masks for ParaView (VTU)...";
   if (format == "vts") return "Sv for ParaView (VTS)...";
   if (format == "echoview") return "Regions for Echoview (EVR)...";
+  if (format == "lsss") return "School masks for LSSS (XML)...";
   if (format == "avoidance") return "Vessel avoidance (table)...";
   if (format == "ices") return "Acoustic XML (ICES)...";
   return std::string(format) + "...";

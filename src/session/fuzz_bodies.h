@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// What the fuzz target of the user's preferences does; the plain tests replay its corpus through the same function.
+// What the fuzz targets of this room's parsers do; the plain tests replay the corpora through the same functions.
 
 #include <filesystem>
 #include <fstream>
@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "base/check.h"
+#include "session/marks/bookmarked_view.h"
 #include "session/preferences.h"
 
 namespace sonar::fuzz {
@@ -32,6 +33,15 @@ inline void preferences(std::string_view text, const std::filesystem::path& fold
   std::ofstream(file, std::ios::binary | std::ios::trunc).write(text.data(), static_cast<std::streamsize>(text.size()));
   const std::string once = saved();
   SONAR_CHECK(saved() == once);
+}
+
+/// A bookmark that is taken is the same when it is written and read again.
+inline void bookmark(std::string_view text) {
+  const auto view = bookmarked_view(std::string(text));
+  if (!view) return;
+  const std::string written = text_of(*view);
+  const auto again = bookmarked_view(written);
+  SONAR_CHECK(again.has_value() && text_of(*again) == written);
 }
 
 }  // namespace sonar::fuzz

@@ -20,7 +20,11 @@ double seconds_now() {
 
 }  // namespace
 
-LivePicture::LivePicture(Workspace& workspace) : queue_(workspace.queue), dark_(workspace.dark) {}
+LivePicture::LivePicture(Workspace& workspace)
+    : queue_(workspace.queue),
+      dark_(workspace.dark),
+      units_read_(workspace.units),
+      units_heard_(workspace.units.changed(), [this] { update(); }) {}
 
 LivePicture::~LivePicture() {
   if (wish_) wish_->cancel();
@@ -65,7 +69,7 @@ void LivePicture::update() {
   outdated_.tell();
   if (!seen_ || size_.width < 1 || size_.height < 1) return;
   stale_ = false;
-  Build build_now = build({size_, scale_, dark_(), {}});
+  Build build_now = build({size_, scale_, dark_(), {}, units_read_()});
   if (!build_now) {
     if (wish_) wish_->cancel();
     alive_ = std::make_shared<bool>(true);  // what is on its way shows what is no more

@@ -13,6 +13,7 @@
 #include "base/work.h"
 #include "session/change_queue.h"
 #include "session/listeners.h"
+#include "session/listening.h"
 #include "session/picture_look.h"
 #include "view/frame_description.h"
 #include "view/image.h"
@@ -95,6 +96,9 @@ class LivePicture {
   [[nodiscard]] virtual bool refines() const { return false; }
 
   virtual void pointer(const PointerEvent& /*event*/) {}
+  /// Ends a drag that has done nothing yet; it will not, wherever the button is let go.
+  /// out  false = there is none
+  virtual bool cancel_drag() { return false; }
   /// Whether two fingers on a touch pad move what is shown now; where they do not, they turn the wheel.
   [[nodiscard]] virtual bool pans() const { return false; }
   /// A menu opens at a place: what lies there becomes what its acts are about.
@@ -147,7 +151,8 @@ class LivePicture {
   void fail_with(std::string line);
 
   ChangeQueue& queue_;
-  const Shared<bool>& dark_;  ///< the window's
+  const Shared<bool>& dark_;         ///< the window's
+  const Shared<Units>& units_read_;  ///< that numbers are read in
   PixelSize units_;
   double scale_ = 1.0;
   PixelSize size_;
@@ -164,6 +169,7 @@ class LivePicture {
   std::shared_ptr<bool> alive_ =
       std::make_shared<bool>(true);  ///< of pictures on their way: once it is another, they are dropped
   std::optional<CancelToken> wish_;
+  Listening units_heard_;
   TaskThread background_;  // the last member: it ends first
 };
 

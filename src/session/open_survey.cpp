@@ -140,7 +140,7 @@ void OpenSurvey::rest_unless_shown(std::size_t observation) {
 void OpenSurvey::open_all() {
   if (!read_.files) return;
   for (std::size_t i = 0; i < read_.files->observations.size(); ++i) {
-    if (read_.files->observations[i].grid) opened(i);
+    if (read_.files->observations[i].grid && !opened(i).unmeasured.empty()) measure(i);
   }
   tell(DocumentChange::observation);
 }

@@ -103,6 +103,7 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
   [[nodiscard]] EventsPtr found_events(std::size_t observation) const;
   [[nodiscard]] ProductPtr product(std::size_t observation) const;
   [[nodiscard]] bool all_measured() const;
+  [[nodiscard]] const std::string& unmeasured() const;
   void keep_survey_numbers(std::vector<SurveyNumber> numbers);
   /// Returns when nothing of it runs or waits in the background.
   void wait();
@@ -140,6 +141,7 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
     std::shared_ptr<KeptMeasures> kept = std::make_shared<KeptMeasures>();
     std::optional<Measuring> measuring;                     ///< begun last
     ProductPtr product;                                     ///< null before it is measured
+    std::string unmeasured;                                 ///< why it cannot be; empty = it can, as far as is known
     std::optional<std::vector<RefusedEcho>> found_refused;  ///< as detection told them; none = it was not looked for
     RefusedPtr refused;                                     ///< those of them that are no school now
     EventsPtr found_events;                                 ///< as detection noted them; null = it was not looked for
@@ -166,13 +168,15 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
   void tell_lacking(const std::vector<std::size_t>& observations);
   void measure_changed(const ChoicesShown& before);
   void measure(std::size_t index);
-  void measure_behind(const OpenObservationPtr& observation, const JournalState& state,
-                      const std::vector<JournalLine>& lines, const RefusedPtr& refused, const EventsPtr& events,
-                      KeptMeasures& kept, const CancelToken& token, Work& work);
+  [[nodiscard]] Result<void> measure_behind(const OpenObservationPtr& observation, const JournalState& state,
+                                            const std::vector<JournalLine>& lines, const RefusedPtr& refused,
+                                            const EventsPtr& events, KeptMeasures& kept, std::uint64_t memory_bytes,
+                                            const CancelToken& token, Work& work);
   [[nodiscard]] std::string key_of(OpenObservation& observation) const;
   void keep_measures();
   [[nodiscard]] std::vector<IndexCache> kept_in() const;
   void take_measured();
+  void take_unmeasured(std::size_t index, const std::string& line);
   void take_product(std::size_t observation, const ProductPtr& product);
   void follow_calibration();
   void replay_journal();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The schools' figures: measured behind the window after each act, those of earlier acts given up.
+#include <algorithm>
 #include <utility>
 
 #include "base/within_memory.h"
@@ -21,6 +22,13 @@ bool OpenSurvey::all_measured() const {
   return true;
 }
 
+const std::string& OpenSurvey::unmeasured() const {
+  static const std::string none;
+  const auto failed =
+      std::find_if(open_.begin(), open_.end(), [](const auto& at) { return !at.second.unmeasured.empty(); });
+  return failed == open_.end() ? none : failed->second.unmeasured;
+}
+
 void OpenSurvey::keep_survey_numbers(std::vector<SurveyNumber> numbers) {
   survey_numbers_ = std::move(numbers);
   tell(DocumentChange::measures);
@@ -38,26 +46,38 @@ void OpenSurvey::measure(std::size_t index) {
   const JournalStatePtr state = choices_.states[index];
   if (at == open_.end() || !state) return;
   if (at->second.measuring) at->second.measuring->cancel();
+  at->second.unmeasured.clear();
   if (++measures_begun_ > 1) tell(DocumentChange::progress);
   const auto work = std::make_shared<Work>(1);
   work->set_progress([give_way = GivesWay(document_.right_of_way())](std::string_view, std::int64_t,
                                                                      std::int64_t) mutable { give_way(); });
   const CancelToken posted =
       measures_.post([this, observation = at->second.open, state, lines = choices_.lines, work, kept = at->second.kept,
-                      refused = refused(index), events = found_events(index)](const CancelToken& token) {
-        if (!token.cancelled()) measure_behind(observation, *state, *lines, refused, events, *kept, token, *work);
+                      refused = refused(index), events = found_events(index),
+                      memory = document_.options().memory_bytes](const CancelToken& token) {
+        const auto measured = within_memory([&]() -> Result<void> {
+          if (token.cancelled()) return {};
+          return measure_behind(observation, *state, *lines, refused, events, *kept, memory, token, *work);
+        });
+        if (!measured && measured.error().code != ErrorCode::cancelled) {
+          post(token, [this, index = observation->index(), line = to_line(measured.error())] {
+            take_unmeasured(index, line);
+          });
+        }
         post({}, [this] { take_measured(); });
       });
   at->second.measuring = {posted, work};
 }
 
-void OpenSurvey::measure_behind(const OpenObservationPtr& observation, const JournalState& state,
-                                const std::vector<JournalLine>& lines, const RefusedPtr& refused,
-                                const EventsPtr& events, KeptMeasures& kept, const CancelToken& token, Work& work) {
+Result<void> OpenSurvey::measure_behind(const OpenObservationPtr& observation, const JournalState& state,
+                                        const std::vector<JournalLine>& lines, const RefusedPtr& refused,
+                                        const EventsPtr& events, KeptMeasures& kept, std::uint64_t memory_bytes,
+                                        const CancelToken& token, Work& work) {
   if (!observation->survey().raw_gone.empty()) {
     const auto known = state_product_of_results(observation->engine(), state, *read_.products[observation->index()]);
     auto shared = std::make_shared<const ObservationProduct>(known);
-    return post(token, [this, index = observation->index(), shared] { take_product(index, shared); });
+    post(token, [this, index = observation->index(), shared] { take_product(index, shared); });
+    return {};
   }
   GivesWay give_way(document_.right_of_way());
   if (!kept.read) {
@@ -68,23 +88,32 @@ void OpenSurvey::measure_behind(const OpenObservationPtr& observation, const Jou
     }
     kept.read = true;
   }
-  for (const std::int64_t ping_index : pings_to_measure(observation->engine(), state, kept.measured)) {
+  const std::vector<std::int64_t> to_read = pings_to_measure(observation->engine(), state, kept.measured);
+  if (!to_read.empty()) {
+    if (auto room = room_for(observation->files(), memory_bytes); !room) return room;
+  }
+  for (const std::int64_t ping_index : to_read) {
     give_way();
-    if (token.cancelled()) return;
+    if (token.cancelled()) return {};
     observation->estimate_background(ping_index);
   }
   const std::vector<JournalLine> effective = effective_lines(lines);
-  auto product = within_memory([&] {
-    return state_product(observation->engine(), state,
-                         {effective, document_.options().program_version, false, &kept.measured, *refused, *events},
-                         work);
-  });
-  if (!product) {
-    if (product.error().code != ErrorCode::no_space) return;
-    return post(token, [this, line = to_line(product.error())] { tell(line); });
-  }
+  auto product =
+      state_product(observation->engine(), state,
+                    {effective, document_.options().program_version, false, &kept.measured, *refused, *events}, work);
+  if (!product) return pass_on(product);
   auto shared = std::make_shared<const ObservationProduct>(std::move(*product));
   post(token, [this, index = observation->index(), shared] { take_product(index, shared); });
+  return {};
+}
+
+/// Figures of choices before would pass for those of now.
+void OpenSurvey::take_unmeasured(std::size_t index, const std::string& line) {
+  AtWork& at = open_.at(index);
+  at.product = nullptr;
+  at.unmeasured = line;
+  tell(line);
+  tell(DocumentChange::measures);
 }
 
 std::string OpenSurvey::key_of(OpenObservation& observation) const {

@@ -41,6 +41,11 @@ class SourceOf : public ParameterSource {
   Parameters<P>& parameters_;
 };
 
+template <class P>
+[[nodiscard]] std::shared_ptr<ParameterSource> source_of(Parameters<P>& parameters) {
+  return std::make_shared<SourceOf<P>>(parameters);
+}
+
 /// A group of controls. A note is a line below a property's control that says what the value means now.
 struct PanelSection {
   std::string title;

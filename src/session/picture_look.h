@@ -14,6 +14,7 @@ struct PictureLook {
   double scale = 1.0;  ///< pixels a unit: of the window, or 1/96 inch of a page
   bool dark = false;
   std::optional<PanelLook> panel;  ///< empty = in the window
+  Units units{};
   friend bool operator==(const PictureLook&, const PictureLook&) = default;
 };
 

@@ -20,10 +20,10 @@ constexpr std::array<std::pair<std::string_view, SliceKind>, 4> kSliceDocks{{{"t
                                                                              {"range_slice", SliceKind::range},
                                                                              {"plane_slice", SliceKind::plane}}};
 
-std::string plane_words(const PlanePlace& place) {
+std::string plane_words(const PlanePlace& place, const Unit& length) {
   switch (place.lies) {
     case PlaneSlice::Kind::horizontal:
-      return fmt::format("Horizontal slice at {:.1f} m depth", place.depth_m);
+      return fmt::format("Horizontal slice at {} depth", quantity_text(place.depth_m, 1, length));
     case PlaneSlice::Kind::vertical:
       return fmt::format("Vertical slice along {:.0f} degrees", place.bearing_deg);
     case PlaneSlice::Kind::oblique:
@@ -34,18 +34,19 @@ std::string plane_words(const PlanePlace& place) {
 
 std::string slice_words(const Workspace& workspace, SliceKind kind) {
   const SlicePlaces& places = workspace.slices();
+  const Unit length = workspace.units().length();
   switch (kind) {
     case SliceKind::top:
       return fmt::format("Slice of fan {}", places.fan);
     case SliceKind::side:
       return fmt::format("Slice of beam {}", places.beam);
     case SliceKind::range:
-      return fmt::format("Slice at {:.1f} m range",
-                         workspace.document.shown()->sector().range().range_m(places.sample));
+      return fmt::format("Slice at {} range",
+                         quantity_text(workspace.document.shown()->sector().range().range_m(places.sample), 1, length));
     case SliceKind::plane:
       break;
   }
-  return plane_words(workspace.plane.values());
+  return plane_words(workspace.plane.values(), length);
 }
 
 /// What it shows without the ping: "Slice of fan 7", "Volume".

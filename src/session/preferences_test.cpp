@@ -55,6 +55,7 @@ TEST(Preferences, GoThroughAFileAndAWorkspaceUnchanged) {
   out.window.text_size_percent = 120.0;
   out.window.memory_gb = 3.0;
   out.window.play_rate = 5.0;
+  out.window.units = {LengthUnit::fathoms, SpeedUnit::knots};
   out.keys = {{"display.masks", {"Ctrl+G"}}, {"review.next", {}}};
   out.set_chart("/data/one", "/charts/gebco.nc");
   out.set_chart("/data/two", "/charts/emodnet.tif");
@@ -71,6 +72,7 @@ TEST(Preferences, GoThroughAFileAndAWorkspaceUnchanged) {
   EXPECT_EQ(in.preferences.window.text_size_percent, 120.0);
   EXPECT_EQ(in.preferences.window.memory_gb, 3.0);
   EXPECT_EQ(in.preferences.window.play_rate, 5.0);
+  EXPECT_EQ(in.preferences.window.units, out.window.units);
   EXPECT_EQ(in.preferences.keys, out.keys);
   EXPECT_FALSE(in.preferences.advance);
   EXPECT_EQ(in.preferences.operator_name, out.operator_name);

@@ -103,7 +103,8 @@ TEST_F(RecipeEditing, WhatIsSavedIsWhatARunReads) {
   const auto read = read_recipe(file.string());
   ASSERT_TRUE(read);
   EXPECT_TRUE(read->automatic) << "a run detects by itself";
-  EXPECT_EQ(read->detect.false_alarm, 7.0);
+  EXPECT_EQ(recipe_text(*read),
+            recipe_text(*recipe_from_text(R"({"recipe_version":1,"automatic":true,"detect":{"false_alarm":7}})")));
   editor.take_defaults();
   ASSERT_TRUE(editor.load(file));
   EXPECT_EQ(editor.changed(), 1U);

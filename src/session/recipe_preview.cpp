@@ -1,17 +1,77 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/recipe_preview.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <utility>
 
+#include "base/number_text.h"
 #include "base/units.h"
-#include "session/slices/slice_build.h"
 #include "session/slices/slice_places.h"
 
 namespace sonar {
+namespace {
 
-RecipePreview::RecipePreview(Workspace& workspace, RecipeEditor* edited)
-    : LivePicture(workspace), workspace_(workspace), edited_(edited) {
+/// The wished ping under another recipe.
+Result<void> stage_under(const Recipe& recipe, SliceWish& wish) {
+  const std::shared_ptr<const SurveyFiles> survey(wish.observation, &wish.observation->survey());
+  OpenObservation under(survey, wish.observation->index(), recipe, 0);
+  auto made = under.ping(wish.ping->ping_index);
+  if (!made) return pass_on(made);
+  wish.ping = std::move(*made);
+  return {};
+}
+
+/// As those that a run finds and nobody has looked at yet.
+std::vector<SchoolLayer> layers_of(const std::shared_ptr<const std::vector<PingSchool>>& schools) {
+  std::vector<SchoolLayer> layers;
+  for (const PingSchool& school : *schools) {
+    const auto number = static_cast<std::int64_t>(layers.size()) + 1;
+    layers.push_back({number, false,
+                      mask_layer(std::shared_ptr<const PingMask>(schools, &school.mask),
+                                 school_colour(static_cast<int>(number)), "unreviewed")});
+  }
+  return layers;
+}
+
+}  // namespace
+
+ReadyPings::Key ReadyPings::key_of(OpenObservationPtr observation, std::int64_t ping_index, Recipe recipe) {
+  recipe.detect = {};
+  return {std::move(observation), ping_index, recipe_hash(recipe)};
+}
+
+std::shared_ptr<const PingBeforeDetection> ReadyPings::find(const Key& key) const {
+  const std::scoped_lock lock(mutex_);
+  for (const auto& [of, ping] : kept_) {
+    if (of == key) return ping;
+  }
+  return nullptr;
+}
+
+Result<std::shared_ptr<const PingBeforeDetection>> ReadyPings::made(const Key& key, const Recipe& recipe,
+                                                                    const CancelToken& token) {
+  constexpr std::size_t kMost = 2;
+  const std::scoped_lock one_at_a_time(making_);
+  if (auto there = find(key)) return there;
+  Work work(1);
+  work.set_progress([&](std::string_view, std::int64_t, std::int64_t) {
+    if (token.cancelled()) work.cancel();
+  });
+  const OpenObservation& observation = *key.observation;
+  auto ping = PingBeforeDetection::of(observation.survey(), observation.files(), recipe, key.ping_index, work);
+  if (!ping) return ping;
+  const std::scoped_lock lock(mutex_);
+  kept_.emplace_back(key, *ping);
+  if (kept_.size() > kMost) kept_.pop_front();
+  return ping;
+}
+
+RecipePreview::RecipePreview(Workspace& workspace, ReadyPings& ready, RecipeEditor* edited)
+    : LivePicture(workspace), workspace_(workspace), ready_(ready), edited_(edited) {
   const auto anew = [this] { update(); };
   listening_.to(workspace.document.changes(), [this](DocumentChange change) {
     if (change == DocumentChange::ping || change == DocumentChange::observation) update();
@@ -22,12 +82,10 @@ RecipePreview::RecipePreview(Workspace& workspace, RecipeEditor* edited)
   if (edited != nullptr) listening_.to(edited->parameters(), anew);
 }
 
-LivePicture::Build RecipePreview::build(const PictureLook& look) {
-  const Document& document = workspace_.document;
-  if (!document.shown() || !document.staged()) return {};
+SliceWish RecipePreview::wished(const PictureLook& look) const {
   SliceWish wish;
-  wish.observation = document.shown();
-  wish.ping = document.staged();
+  wish.observation = workspace_.document.shown();
+  wish.ping = workspace_.document.staged();
   wish.display = workspace_.display.values();
   wish.display.filtered = true;
   const SliceInUse& in_use = workspace_.slice_in_use();
@@ -39,34 +97,61 @@ LivePicture::Build RecipePreview::build(const PictureLook& look) {
   wish.colours = std::make_shared<const SvColours>(slice_colours(workspace_));
   wish.look = look;
   wish.room = std::make_shared<FlagRoom>();
-  std::optional<Recipe> recipe;
+  return wish;
+}
+
+LivePicture::Build RecipePreview::build(const PictureLook& look) {
+  const Document& document = workspace_.document;
+  if (!document.shown() || !document.staged()) return {};
+  SliceWish wish = wished(look);
+  const Recipe detecting = edited_ != nullptr ? edited_->recipe() : document.recipe();
+  std::optional<Recipe> shown;
   if (edited_ != nullptr) {
-    recipe = edited_->recipe();
-    // A calibration that was chosen for the survey holds whatever the recipe says.
+    shown = detecting;
+    // A calibration that was chosen for the survey holds for what is seen, whatever the recipe says; schools are found
+    // without it.
     const Recipe measuring = document.measuring_recipe();
-    if (recipe_hash(measuring) != recipe_hash(document.recipe())) recipe->calibration = measuring.calibration;
+    if (recipe_hash(measuring) != recipe_hash(document.recipe())) shown->calibration = measuring.calibration;
   }
-  return [wish = std::move(wish), recipe = std::move(recipe)](PixelSize size, const CancelToken& token,
-                                                              const Show& show) mutable -> Result<void> {
-    if (recipe) {
-      if (auto valid = validate_recipe(*recipe); !valid) return valid;
-      const std::shared_ptr<const SurveyFiles> survey(wish.observation, &wish.observation->survey());
-      OpenObservation under(survey, wish.observation->index(), *recipe, 0);
-      auto made = under.ping(wish.ping->ping_index);
-      if (!made) return pass_on(made);
-      wish.ping = std::move(*made);
+  const ReadyPings::Key key = ReadyPings::key_of(wish.observation, wish.ping->ping_index, detecting);
+  return [&ready = ready_, wish = std::move(wish), detecting, key, shown = std::move(shown)](
+             PixelSize size, const CancelToken& token, const Show& show) mutable -> Result<void> {
+    if (auto valid = validate_recipe(detecting); !valid) return valid;
+    if (shown) {
+      if (auto staged = stage_under(*shown, wish); !staged) return staged;
       if (token.cancelled()) return fail(ErrorCode::cancelled, "a later edit came");
     }
-    auto picture = slice_of(wish, size);
-    if (!picture) return pass_on(picture);
-    auto detail = std::make_shared<const SlicePicture>(std::move(*picture));
-    show({detail->frame, std::nullopt, detail});
-    return {};
+    const auto put = [&](const std::shared_ptr<const Schools>& schools) -> Result<void> {
+      wish.layers = schools && wish.display.masks ? layers_of(schools) : std::vector<SchoolLayer>{};
+      auto picture = slice_of(wish, size);
+      if (!picture) return pass_on(picture);
+      show({std::move(picture->frame), std::nullopt, schools});
+      return {};
+    };
+    auto ping = ready.find(key);
+    if (!ping) {
+      if (auto first = put(nullptr); !first) return first;
+      auto made = ready.made(key, detecting, token);
+      if (!made) return pass_on(made);
+      ping = std::move(*made);
+    }
+    return put(std::make_shared<const Schools>(ping->schools(detecting.detect)));
   };
 }
 
 void RecipePreview::take(const std::shared_ptr<const void>& detail) {
-  picture_ = std::static_pointer_cast<const SlicePicture>(detail);
+  schools_ = std::static_pointer_cast<const Schools>(detail);
+}
+
+std::string RecipePreview::schools_text() const {
+  if (image().size.width < 1) return {};
+  if (!schools_) return "schools are being looked for";
+  const Schools& schools = *schools_;
+  if (schools.empty()) return "no school in this ping";
+  const double volume_m3 = std::accumulate(schools.begin(), schools.end(), 0.0,
+                                           [](double sum, const PingSchool& one) { return sum + one.volume_m3; });
+  return fmt::format("{} in this ping, {} m\u00B3 in all", count_of(schools.size(), "school"),
+                     grouped(static_cast<std::size_t>(std::llround(volume_m3))));
 }
 
 }  // namespace sonar

@@ -18,6 +18,7 @@ struct Cell {
   std::string text;
   std::variant<std::monostate, double, std::string> key;  ///< monostate: unknown, sorted last
   std::string brief = {};  ///< shown in the text's stead where lists are narrow; empty = the text
+  int decimals = -1;       ///< that a number is written with; -1 = three significant digits
 };
 
 struct ListColumn {

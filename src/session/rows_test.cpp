@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/integration.h"
 #include "session/lists/cells.h"
+#include "session/numbers/table_rows.h"
 
 namespace sonar {
 namespace {
@@ -69,6 +71,31 @@ TEST(Cells, AreAsPeopleReadThem) {
             "2020-09-13 12:26:40 \u2013 2020-09-14 12:26:40");
   EXPECT_EQ(latitude_cell(60.5).text, "60\u00B030.000\u2032 N");
   EXPECT_EQ(longitude_cell(std::nan("")).text, "");
+}
+
+// 1 ft = 0.3048 m, 1 kn = 1852 m an hour; areas stay.
+TEST(Cells, OfLengthsAndSpeedsAreInTheUnitsThatAreRead) {
+  const Units units{LengthUnit::feet, SpeedUnit::knots};
+  EXPECT_EQ(in_units(number_cell(30.48, 1), "m", units).text, "100.0");
+  EXPECT_EQ(in_units(number_cell(10.0, 2), "m/s", units).text, "19.44");
+  EXPECT_EQ(in_units(number_cell(10.0, 2), "kn", units).text, "10.00");
+  EXPECT_EQ(in_units(number_cell(30.48, 1), "m\u00B2", units).text, "30.5");
+  EXPECT_EQ(in_units(number_cell(std::nan(""), 1), "m", units).text, "");
+  TableRows<NascRow> table;
+  NascRow row;
+  row.depth_from_m = 30.48;
+  table.set({row});
+  const auto& columns = table.columns();
+  const auto at =
+      static_cast<std::size_t>(std::ranges::find(columns, "depth_from_m", &ListColumn::tip) - columns.begin());
+  ASSERT_LT(at, columns.size());
+  EXPECT_EQ(columns[at].unit, "m");
+  EXPECT_EQ(table.cell(0, at).text, "30.5");
+  table.show_in(units);
+  EXPECT_EQ(table.columns()[at].unit, "ft");
+  EXPECT_EQ(table.cell(0, at).text, "100");
+  table.show_in({});
+  EXPECT_EQ(table.columns()[at].unit, "m");
 }
 
 }  // namespace

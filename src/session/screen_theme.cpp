@@ -16,6 +16,11 @@ Theme scaled(Theme theme, double factor) {
   return theme;
 }
 
+Theme read_in(Theme theme, const PictureLook& look) {
+  theme.units = look.units;
+  return theme;
+}
+
 }  // namespace
 
 Theme screen_theme(PixelSize pixels, double scale, bool dark) {
@@ -34,11 +39,11 @@ Theme dock_theme(PixelSize pixels, double scale, bool dark) {
 }
 
 Theme screen_theme(PixelSize pixels, const PictureLook& look) {
-  return look.panel ? panel_theme(*look.panel, look.dark) : screen_theme(pixels, look.scale, look.dark);
+  return read_in(look.panel ? panel_theme(*look.panel, look.dark) : screen_theme(pixels, look.scale, look.dark), look);
 }
 
 Theme dock_theme(PixelSize pixels, const PictureLook& look) {
-  return look.panel ? panel_theme(*look.panel, look.dark) : dock_theme(pixels, look.scale, look.dark);
+  return read_in(look.panel ? panel_theme(*look.panel, look.dark) : dock_theme(pixels, look.scale, look.dark), look);
 }
 
 }  // namespace sonar

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/describe.h"
+#include "view/units.h"
 
 namespace sonar {
 
@@ -18,6 +19,7 @@ struct WindowParams {
   double memory_gb = 0.0;
   double play_rate = 2.0;
   bool play_loop = false;
+  Units units;
 };
 
 template <class Visitor>
@@ -42,6 +44,14 @@ void describe(Visitor& v, WindowParams& p) {
       "play_rate", p.play_rate,
       {.unit = "pings/s", .min = 0, .max = 100, .text = "Pings a second that are played; 0 = as they were recorded."});
   v.field("play_loop", p.play_loop, {.text = "After the last ping comes the first."});
+  v.choice("length_unit", p.units.lengths, kLengthUnitNames,
+           "Depths, ranges and sizes that the window shows: metres, feet (0.3048 m) or fathoms (6 feet). Distances "
+           "sailed stay "
+           "in nautical miles; files, and what is typed in, in metres.");
+  v.choice("speed_unit", p.units.speeds, kSpeedUnitNames,
+           "Speeds that the window shows: knots of the ship and in the list of schools, else m/s, as is usual; or all "
+           "alike. "
+           "Files have m/s.");
 }
 
 }  // namespace sonar

@@ -48,7 +48,8 @@ std::vector<PanelSection> preference_pages(AppModel& app) {
   };
   std::vector<PanelSection> pages{page("Appearance", window, {"theme", "text_size_percent"}),
                                   colours_section(app.workspace), page("Playback", window, {"play_rate", "play_loop"}),
-                                  page("Memory", window, {"memory_gb"})};
+                                  page("Memory", window, {"memory_gb"}),
+                                  page("Units", window, {"length_unit", "speed_unit"})};
   pages[2].looks = {{"play_rate", "real time", {0.0, 20.0}}};
   pages[3].looks = {{"memory_gb", "automatic", {0.0, 64.0}}};
   return pages;
@@ -95,7 +96,7 @@ void add_window_preferences(AppModel& app) {
                    .menu = "&Edit",
                    .text = "Preferences...",
                    .keys = {"Ctrl+,"},
-                   .tip = "Theme, colours, text size, keys, playback and memory",
+                   .tip = "Theme, colours, text size, keys, playback, memory and units",
                    .run = [&app] { change_preferences(app); }});
 }
 

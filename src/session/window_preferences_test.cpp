@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/window_preferences.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "session/exports.h"
+#include "session/listening.h"
 #include "session/playback.h"
 #include "session/test_app.h"
 
@@ -141,6 +146,65 @@ TEST_F(WindowPreferences, TextsNameTheKeysThatAreInForce) {
             "Detect schools in the whole survey detects, [no.such] and [] do nothing, F10 goes on [");
   app_->workspace.document.tell("press [review.next]");
   EXPECT_EQ(app_->workspace.document.notices().back(), "press F10");
+}
+
+// 1 ft = 0.3048 m; what was asked for is read everywhere at once.
+TEST_F(WindowPreferences, UnitsReachReadOutsAndListsAndCancelBringsBackMetres) {
+  document().open({TestSurvey::easy().folder()});
+  document().settle();
+  paint(2, 4, 5, 5, 200);
+  document().settle();
+  const Rows& schools = *app_->rows("schools");
+  const auto column = [&](const std::string& title) {
+    const auto& all = schools.columns();
+    const auto found = std::ranges::find(all, title, &ListColumn::title);
+    return static_cast<std::size_t>(found - all.begin());
+  };
+  const std::size_t depth = column("Depth");
+  const std::size_t speed = column("Speed");
+  ASSERT_LT(std::max(depth, speed), schools.columns().size());
+  EXPECT_EQ(schools.columns()[depth].unit, "m");
+  EXPECT_EQ(schools.columns()[speed].unit, "kn");
+  const double depth_m = std::get<double>(schools.cell(0, depth).key);
+  const ReadOut metres = read_out(workspace(), {6, 6, 200});
+  int told = 0;
+  const Listening heard(app_->rows("schools")->changed(), [&told] { ++told; });
+
+  const auto feet = [&](bool ok) {
+    return [&, ok] {
+      set("length_unit", Choice{static_cast<std::size_t>(LengthUnit::feet)});
+      set("speed_unit", Choice{static_cast<std::size_t>(SpeedUnit::metres_per_second)});
+      EXPECT_GE(told, 1) << "at once";
+      EXPECT_EQ(schools.columns()[depth].unit, "ft");
+      EXPECT_EQ(schools.columns()[speed].unit, "m/s");
+      const Cell cell = schools.cell(0, depth);
+      EXPECT_NEAR(std::get<double>(cell.key), depth_m / 0.3048, 1e-9);
+      EXPECT_EQ(cell.text, fmt::format("{:.1f}", depth_m / 0.3048));
+      EXPECT_TRUE(row_matches(schools, 0, fmt::format("depth>{:.1f}", depth_m / 0.3048 - 1.0))) << "a limit is read so";
+      EXPECT_THAT(tab_separated(schools, {0}), testing::HasSubstr("Depth [ft]"));
+      const ReadOut read = read_out(workspace(), {6, 6, 200});
+      EXPECT_THAT(read.depth, testing::EndsWith(" ft"));
+      EXPECT_THAT(read.range, testing::EndsWith(" ft"));
+      EXPECT_THAT(read.ship, testing::EndsWith(" m/s"));
+      EXPECT_THAT(read.log, testing::EndsWith(" nmi"));
+      EXPECT_NEAR(std::stod(read.depth.substr(6)) * 0.3048, std::stod(metres.depth.substr(6)), 0.07);
+      const auto options = picture_options(workspace(), PictureKind::slice_top);
+      EXPECT_TRUE(options && options->units == workspace().units()) << "as pictures in files";
+      return ok;
+    };
+  };
+  app_->preferences.path = journal_ / "preferences.json";
+  app_->dialogs.preferences = feet(false);
+  press("edit.preferences");
+  queue_.drain();
+  queue_.drain();
+  EXPECT_EQ(workspace().units(), Units{});
+  EXPECT_EQ(schools.columns()[depth].unit, "m");
+  EXPECT_EQ(read_out(workspace(), {6, 6, 200}).line(), metres.line());
+  app_->dialogs.preferences = feet(true);
+  press("edit.preferences");
+  const auto kept = Preferences::load(app_->preferences.path).preferences;
+  EXPECT_EQ(kept.window.units, (Units{LengthUnit::feet, SpeedUnit::metres_per_second}));
 }
 
 }  // namespace

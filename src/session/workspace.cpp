@@ -127,6 +127,7 @@ Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
     if (change == DocumentChange::survey) chosen_schools.set({});
     if (change == DocumentChange::state) chosen_schools.set(still_there(chosen_schools(), document));
   });
+  window.changed().add([this](const WindowParams& params) { units.set(params.units); });
   view_curve.changed().add([this] { link(true); });
   growth_curve.changed().add([this] { link(false); });
   curves_linked.changed().add([this] { link(true); });
@@ -176,10 +177,13 @@ ReadOut read_out(const Workspace& workspace, const Voxel& voxel) {
   const PingNavigation& navigation = shown->files().navigation[static_cast<std::size_t>(ping)];
   const Placement placement = shown->placement(ping);
   const Point<Sonar> place = levelled(sector.centre(voxel.fan, voxel.beam, voxel.sample), placement);
-  text.range = fmt::format("range {:.1f} m", norm(place));
-  text.depth = fmt::format("depth {:.1f} m", place.z + placement.transducer_depth_m);
+  const Unit length = workspace.units().length();
+  text.range = "range " + quantity_text(norm(place), 1, length);
+  text.depth = "depth " + quantity_text(place.z + placement.transducer_depth_m, 1, length);
   text.time = time_text(navigation.time);
-  if (!std::isnan(navigation.speed_mps)) text.ship = fmt::format("ship {:.1f} kn", navigation.speed_mps / kKnot_mps);
+  if (!std::isnan(navigation.speed_mps)) {
+    text.ship = "ship " + quantity_text(navigation.speed_mps, 1, workspace.units().ship_speed());
+  }
   if (!std::isnan(navigation.distance_nmi)) text.log = fmt::format("log {:.3f} nmi", navigation.distance_nmi);
   const double bow_deg = deg_from_rad(std::atan2(place.y, place.x));
   const bool headed = !std::isnan(navigation.heading_deg);

@@ -162,6 +162,7 @@ struct Workspace {
   Shared<std::optional<Measurement>> measurement;  ///< the last one; a survey or observation that goes ends it
   Shared<bool> measure_all_fans{false};            ///< areas of slices from above go through all fans
   Shared<bool> dark{false};
+  Shared<Units> units;                                    ///< that numbers are read in, as the preferences have it
   Shared<std::filesystem::path> depth_raster;             ///< under the survey map; empty = none
   Shared<SurveyTransects> transects;                      ///< on maps and timelines, and among the marks
   Shared<std::optional<MarkedInterval>> marked_interval;  ///< on a timeline
@@ -179,8 +180,8 @@ struct Workspace {
   bool linking_ = false;
 };
 
-/// The cursor's read-out, each empty where it is unknown. Position in degrees and decimal minutes, time UTC, the ship's
-/// speed in knots, its log in nautical miles.
+/// The cursor's read-out, each empty where it is unknown. Position in degrees and decimal minutes, time UTC, lengths and
+/// the ship's speed in the user's units, its log in nautical miles.
 struct ReadOut {
   std::string sv, fan, beam, sample, range, depth, bearing, latitude, longitude, time, flags, school, ship, log;
   /// "Sv -48.2 dB, fan 7, beam 12, ...": what one key copies.

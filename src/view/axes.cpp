@@ -190,6 +190,20 @@ double PlotFrame::y_at(double pixel_y) const {
   return y.first + (pixel_y - place.y) / place.height * (y.last - y.first);
 }
 
+PlotAxis length_axis(double first_m, double last_m, std::string_view what, const Theme& theme) {
+  const Unit unit = theme.units.length();
+  return {first_m, last_m, with_unit(what, unit), false, false, unit.si};
+}
+
+PlotFrame as_read(PlotFrame plot) {
+  for (PlotAxis* axis : {&plot.x, &plot.y}) {
+    axis->first /= axis->unit;
+    axis->last /= axis->unit;
+    axis->unit = 1.0;
+  }
+  return plot;
+}
+
 void make_isotropic(PlotFrame& plot) {
   const double x_unit = std::abs(plot.x.last - plot.x.first) / plot.place.width;
   const double y_unit = std::abs(plot.y.last - plot.y.first) / plot.place.height;
@@ -201,7 +215,8 @@ void make_isotropic(PlotFrame& plot) {
   axis.last = middle + half;
 }
 
-void add_axes(FrameDescription& frame, const PlotFrame& plot, const Theme& theme, const AxesStyle& style) {
+void add_axes(FrameDescription& frame, const PlotFrame& axes, const Theme& theme, const AxesStyle& style) {
+  const PlotFrame plot = as_read(axes);
   const int most_x = std::max(2, static_cast<int>(plot.place.width / (5.0 * theme.text_px)));
   const int most_y = std::max(2, static_cast<int>(plot.place.height / (3.5 * theme.text_px)));
   const Ticks x = axis_ticks(plot.x, most_x);

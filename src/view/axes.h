@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "view/frame_description.h"
@@ -34,6 +35,7 @@ struct PlotAxis {
   std::string label;  ///< with unit
   bool degrees = false;
   bool both_ways = false;  ///< distances to either side of 0, which the label names: ticks have no sign
+  double unit = 1.0;       ///< ticks stand at round numbers of it and are read in it: m in a foot, say
   friend bool operator==(const PlotAxis&, const PlotAxis&) = default;
 };
 
@@ -48,13 +50,18 @@ struct PlotFrame {
   friend bool operator==(const PlotFrame&, const PlotFrame&) = default;
 };
 
+/// "depth (ft)" over a length, in the unit that the theme reads lengths in.
+[[nodiscard]] PlotAxis length_axis(double first_m, double last_m, std::string_view what, const Theme& theme);
+/// The same place of the picture, its axes in the units that they are read in.
+[[nodiscard]] PlotFrame as_read(PlotFrame plot);
+
 struct AxesStyle {
   bool grid = false;
   bool minor = true;
 };
 
 /// Frame, ticks outside, tick labels, axis labels.
-void add_axes(FrameDescription& frame, const PlotFrame& plot, const Theme& theme, const AxesStyle& style = {});
+void add_axes(FrameDescription& frame, const PlotFrame& axes, const Theme& theme, const AxesStyle& style = {});
 
 /// Widens the axis that has room, about its middle, until one unit of x is as long as one of y.
 void make_isotropic(PlotFrame& plot);

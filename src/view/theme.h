@@ -6,6 +6,7 @@
 
 #include "view/frame_description.h"
 #include "view/image.h"
+#include "view/units.h"
 
 namespace sonar {
 
@@ -33,6 +34,7 @@ struct Theme {
   bool titles = true;          ///< false: pictures leave out the lines above their plot
   bool bars = true;            ///< false: colour bars are left to the page, in FrameDescription::bars
   float least_text_px = 0.0F;  ///< no text is smaller
+  Units units{};               ///< that lengths and speeds are read in
   friend bool operator==(const Theme&, const Theme&) = default;
 };
 

@@ -34,6 +34,13 @@ def shimmed(*arguments, below, fail=0, error=errno.ENOSPC, log=None):
 
 @unittest.skipUnless(SHIM, "SONAR_SHIM, the library that makes calls fail, is not given: none is built with sanitizers")
 class Disk(Case):
+    @classmethod
+    def setUpClass(cls):
+        folder = cls.fresh("disk")
+        cls.survey, cls.out = sonarx.simulate_tiny(folder, observations=2, pings=5), folder / "out"
+        code, _, err = sonarx.run("run", cls.survey, "--out", cls.out)
+        assert code == 0, err
+
     def logged(self, name, *arguments, below):
         log = self.fresh(name) / "calls"
         code, _, err = shimmed(*arguments, below=below, log=log)
@@ -61,7 +68,7 @@ class Disk(Case):
         folder = self.fresh("power")
         out = folder / "out"
         # two products, plan, two tables, map, survey.json
-        self.assertEqual(self.check_order(self.logged("power-run", "run", SURVEY, "--out", out, below=out)), 7)
+        self.assertEqual(self.check_order(self.logged("power-run", "run", self.survey, "--out", out, below=out)), 7)
         self.assertGreater(self.check_order(self.logged("power-export", "export", out, "--to", "csv", "--dest",
                                                         folder / "csv", below=folder / "csv")), 1)
         self.assertEqual(self.check_order(self.logged("power-render", "render", "observation-map", out, "--out",
@@ -77,7 +84,7 @@ class Disk(Case):
         for at in places:
             with self.subTest(call=at):
                 shutil.rmtree(out, ignore_errors=True)
-                code, _, err = shimmed("run", SURVEY, "--out", out, below=out, fail=at, error=error)
+                code, _, err = shimmed("run", self.survey, "--out", out, below=out, fail=at, error=error)
                 self.assertIn(code, (1, 3), err)
                 self.assertTrue(err.strip().splitlines()[-1].startswith("sonarx: "), err)
                 self.assertRegex(err, SAYS[error])
@@ -86,16 +93,16 @@ class Disk(Case):
                 for product in (p for p in left if p.suffix == ".nc"):
                     self.sonarx("compare", product, product)
                 for file in left:
-                    theirs = sonarx.OUT / file.relative_to(out)
+                    theirs = self.out / file.relative_to(out)
                     if file.suffix in (".csv", ".nc") and code == 1:
                         self.assertEqual(file.read_bytes(), theirs.read_bytes(), file)
-        self.sonarx("run", SURVEY, "--out", out)
-        self.sonarx("compare", sonarx.OUT, out)
+        self.sonarx("run", self.survey, "--out", out)
+        self.sonarx("compare", self.out, out)
         hidden = [p.name for p in out.rglob(".*") if p.is_file()]
         self.assertEqual(hidden, [])
 
     def test_a_disk_that_is_full_or_breaks_at_any_call(self):
-        calls = len(self.logged("count", "run", SURVEY, "--out", self.fresh("count-out") / "out",
+        calls = len(self.logged("count", "run", self.survey, "--out", self.fresh("count-out") / "out",
                                 below=WORK / "count-out" / "out"))
         self.assertGreater(calls, 30)
         for error in (errno.ENOSPC, errno.EIO):
@@ -135,16 +142,15 @@ class Disk(Case):
                             self.assertEqual(file.read_bytes(), theirs.read_bytes(), file)
 
     def test_exports_merges_clicks_and_follow_leave_nothing_half(self):
-        out = sonarx.OUT
         for kind in ("csv", "gpkg", "geojson", "netcdf-mask"):
-            self.whole_or_absent(f"export-{kind}", "--dest", "export", out, "--to", kind)
-        self.whole_or_absent("raw-reduced", "--dest", "export", out, "--to", "raw-reduced", "--survey", SURVEY)
+            self.whole_or_absent(f"export-{kind}", "--dest", "export", self.out, "--to", kind)
+        self.whole_or_absent("raw-reduced", "--dest", "export", self.out, "--to", "raw-reduced", "--survey", self.survey)
         if propagate_test.netCDF4 is not None:
             seed, _ = propagate_test.seed()
             self.whole_or_absent("propagate", "--out", "propagate", SURVEY, "--observation", "obs-0001", "--seed", seed,
                                  "--tolerance-db", "10", "--reach", "2")
-        self.whole_or_absent("follow", "--out", "follow", SURVEY, "--idle-exit", "1")
-        self.whole_or_absent("merge", "merge", begin=lambda to: shutil.copytree(out, to))
+        self.whole_or_absent("follow", "--out", "follow", self.survey, "--idle-exit", "1")
+        self.whole_or_absent("merge", "merge", begin=lambda to: shutil.copytree(self.out, to))
 
 
 if __name__ == "__main__":

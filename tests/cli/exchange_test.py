@@ -2,6 +2,7 @@
 """What other programs are given, read back by readers that share nothing with ours."""
 import base64
 import html.parser
+import importlib
 import json
 import math
 import re
@@ -19,6 +20,10 @@ try:
     import numpy
 except ImportError:
     numpy = None
+try:
+    import netCDF4
+except ImportError:
+    netCDF4 = None
 
 
 def ply(file):
@@ -62,6 +67,17 @@ def glb(file):
     return said, meshes
 
 
+def through_vtk(file, module, kind):
+    """The file as VTK itself reads it; called last, for the test is skipped where VTK is not installed."""
+    try:
+        reader = getattr(importlib.import_module(f"vtkmodules.{module}"), kind)()
+    except ImportError:
+        raise unittest.SkipTest("python3-vtk9 is not installed") from None
+    reader.SetFileName(str(file))
+    reader.Update()
+    return reader.GetOutput()
+
+
 def volume_and_middle(corners, triangles):
     a, b, c = (corners[triangles[:, k]] - corners[0] for k in range(3))
     six = numpy.einsum("ij,ij->i", a, numpy.cross(b, c))
@@ -99,6 +115,9 @@ class Meshes(Case):
             east = (float(row["longitude"]) - float(origin[1])) * 111320 * math.cos(math.radians(float(origin[0])))
             for told, expected in zip(middle, (east, north, -float(row["depth_m"]))):
                 self.assertAlmostEqual(told, expected, delta=0.15 * volume ** (1 / 3) + 0.004 * abs(expected))
+        surface = through_vtk(files[0], "vtkIOPLY", "vtkPLYReader")
+        _, corners, triangles = ply(files[0])
+        self.assertEqual((surface.GetNumberOfPoints(), surface.GetNumberOfPolys()), (len(corners), len(triangles)))
 
     def test_gltf_has_the_same_meshes_with_y_up(self):
         dest = self.fresh("export-ply-too")
@@ -116,6 +135,9 @@ class Meshes(Case):
             _, corners, same = ply(dest / f"{name}.ply")
             self.assertTrue((triangles == same).all())
             self.assertTrue(numpy.allclose(places, numpy.stack([corners[:, 0], corners[:, 2], -corners[:, 1]], 1)))
+        file = min(folder.glob("*.glb"))
+        self.assertEqual(through_vtk(file, "vtkIOGeometry", "vtkGLTFReader").GetNumberOfPoints(),
+                         sum(len(places) for places, _ in glb(file)[1].values()))
 
 
 KINDS = {"Float32": "<f4", "Float64": "<f8", "Int64": "<i8", "UInt8": "u1"}
@@ -136,18 +158,6 @@ def vtk(file):
         width = int(array.get("NumberOfComponents"))
         arrays[array.get("Name")] = values.reshape(-1, width) if width > 1 else values
     return said, arrays
-
-
-def through_vtk(file, kind):
-    """The file as VTK itself reads it; None where it is not installed."""
-    try:
-        from vtkmodules import vtkIOXML
-    except ImportError:
-        return None
-    reader = getattr(vtkIOXML, kind)()
-    reader.SetFileName(str(file))
-    reader.Update()
-    return reader.GetOutput()
 
 
 @unittest.skipIf(numpy is None, "python3-numpy is not installed")
@@ -178,9 +188,8 @@ class ParaView(Case):
                 self.assertEqual(ours.sum(), int(row["n_voxels"]))
                 self.assertAlmostEqual(volume[ours].sum() / float(row["volume_m3"]), 1, delta=0.03)
             self.assertTrue((arrays["confidence"] > 0).all() and (arrays["confidence"] <= 1).all())
-        grid = through_vtk(files[0], "vtkXMLUnstructuredGridReader")
-        if grid is not None:
-            self.assertEqual(grid.GetNumberOfCells(), len(vtk(files[0])[1]["types"]))
+        grid = through_vtk(files[0], "vtkIOXML", "vtkXMLUnstructuredGridReader")
+        self.assertEqual(grid.GetNumberOfCells(), len(vtk(files[0])[1]["types"]))
 
     def test_the_series_is_in_the_order_of_time(self):
         dest = self.fresh("export-vtu-series")
@@ -208,9 +217,8 @@ class ParaView(Case):
         self.assertAlmostEqual(float(numpy.nanmax(arrays["Sv"][ours])), float(row["sv_max_db"]), delta=0.5)
         depth = -(arrays["Points"][ours, 2] * arrays["confidence"][ours]).sum() / arrays["confidence"][ours].sum()
         self.assertAlmostEqual(depth / float(row["depth_m"]), 1, delta=0.1)
-        grid = through_vtk(file, "vtkXMLStructuredGridReader")
-        if grid is not None:
-            self.assertEqual(grid.GetNumberOfPoints(), len(arrays["Points"]))
+        grid = through_vtk(file, "vtkIOXML", "vtkXMLStructuredGridReader")
+        self.assertEqual(grid.GetNumberOfPoints(), len(arrays["Points"]))
 
 
 class Ices(Case):
@@ -335,6 +343,144 @@ class Echoview(Case):
                 self.assertEqual(status, "1")
                 iso = f"{date[:4]}-{date[4:6]}-{date[6:]}T{time[:2]}:{time[2:4]}:{time[4:6]}.{time[6:9]}Z"
                 self.assertAlmostEqual(float(depth), depths[iso], delta=0.05 * depths[iso])
+
+
+def work_voxels(file, first):
+    """(school, FILETIME, channel and sample from 0) of each voxel of a work file whose numbers count from `first`."""
+    root = xml.etree.ElementTree.parse(file).getroot()
+    assert root.tag == "schools"
+    for school in root.findall("schoolData"):
+        for ping in school.findall("schoolMask/pingMask"):
+            beams = ping.findall("beam")
+            assert len(beams) == int(ping.get("beamCount")) > 0
+            for beam in beams:
+                numbers = [int(n) for n in beam.get("range").split()]
+                assert len(numbers) % 2 == 0
+                for k in range(0, len(numbers), 2):
+                    begin = sum(numbers[:k + 1])
+                    assert first <= begin < begin + numbers[k + 1] <= int(beam.get("beamLength")) + first
+                    for sample in range(begin, begin + numbers[k + 1]):
+                        yield int(school.get("ObjectNumber")), int(ping.get("pingNtDate")), int(beam.get("channel")) - first, sample - first
+
+
+def product_voxels(file):
+    """The same of a product."""
+    with netCDF4.Dataset(file) as product:
+        mask = product["mask"]
+        times = [int(t) // 100 + 116444736 * 10**9 for t in product["pings/time_ns"][:]]
+        for school, ping, channel, begin, count in zip(*(mask[name][:].tolist() for name in (
+                "school_id", "ping_index", "channel", "first_sample", "sample_count"))):
+            for sample in range(begin, begin + count):
+                yield school, times[ping], channel, sample
+
+
+class Lsss(Case):
+    def test_work_files_hold_the_voxels_of_the_tables_and_products(self):
+        rejected = {(r["observation"], int(r["school_id"])) for r in sonarx.read_csv(OUT / "schools.csv") if r["status"] == "rejected"}
+        wanted = {}
+        for row in sonarx.read_csv(OUT / "school_pings.csv"):
+            key = row["observation"], int(row["school_id"])
+            if key not in rejected:
+                wanted[key] = wanted.get(key, 0) + int(row["n_voxels"])
+        for first, more in ((1, ()), (0, ("--count-from", "0"))):
+            dest = self.fresh(f"export-lsss-{first}")
+            self.sonarx("export", OUT, "--to", "lsss", "-o", dest, *more)
+            counted = {}
+            for file in sorted(dest.glob("*.work")):
+                voxels = list(work_voxels(file, first))
+                self.assertEqual(len(voxels), len(set(voxels)), "each once")
+                for school, *_ in voxels:
+                    counted[file.stem, school] = counted.get((file.stem, school), 0) + 1
+                if netCDF4 is not None:
+                    self.assertEqual(set(voxels), {v for v in product_voxels(OUT / "products" / f"{file.stem}.nc")
+                                                   if (file.stem, v[0]) not in rejected})
+            self.assertEqual(counted, wanted)
+
+    @unittest.skipIf(shutil.which("xmllint") is None, "xmllint is not installed")
+    def test_xmllint_reads_it(self):
+        dest = self.fresh("export-lsss-lint")
+        self.sonarx("export", OUT, "--to", "lsss", "-o", dest)
+        for file in dest.glob("*.work"):
+            done = subprocess.run(["xmllint", "--noout", file], capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_the_numbering_belongs_to_it(self):
+        self.one_line_error("export", OUT, "--to", "csv", "--count-from", "0", "-o", self.fresh("export-lsss-none"), code=2,
+                            names="--count-from: belongs to --to lsss")
+class EchoviewBack(Case):
+    """A journal of what was exported, and pictures of lines."""
+    def test_regions_come_back_as_the_schools_that_they_were(self):
+        folder = self.fresh("import-echoview")
+        self.sonarx("export", OUT, "--to", "echoview", "-o", folder)
+        journal, recipe = folder / "regions.jsonl", folder / "R.json"
+        files = sorted(folder.glob("obs-0001-fan-*.evr"))
+        schools = [r for r in sonarx.read_csv(OUT / "schools.csv") if (r["observation"], r["status"]) == ("obs-0001", "unreviewed")]
+        rows = [r for r in sonarx.read_csv(OUT / "school_pings.csv")
+                if (r["observation"], r["school_id"]) in {(s["observation"], s["school_id"]) for s in schools}]
+        before = sonarx.contents(SURVEY)
+        said = self.sonarx("import", SURVEY, *files, "-o", journal, "--operator", "somebody")
+        self.assertEqual(sonarx.contents(SURVEY), before)
+        voxels = sum(int(r["n_voxels"]) for r in rows)
+        self.assertRegex(said, rf": {len(schools)} schools?, {voxels} voxels, 0 marks, 0 bad intervals\n$")
+        # What the notes tell, read by rules of this test: every cell stands in the journal.
+        cells = {}
+        for file in files:
+            for line in file.read_bytes().decode("utf-8-sig").split("\r\n"):
+                if line.startswith("cells "):
+                    time, *numbers = line.split()[2:]
+                    cells[time[:9]] = cells.get(time[:9], 0) + sum(int(n) for n in numbers[2::3])
+        lines = [json.loads(line) for line in journal.read_text().splitlines()[1:]]
+        brushed = sum(count for line in lines if line["cmd"] == "brush" for _, _, count in line["args"]["runs"])
+        self.assertEqual((sum(cells.values()), brushed), (voxels, voxels))
+        self.assertEqual({line["operator"] for line in lines}, {"somebody"})
+        recipe.write_text(self.sonarx("recipe", "--preset", "default").replace('"automatic": true', '"automatic": false'))
+        self.sonarx("run", SURVEY, "-o", folder / "out", "--session", journal, "--recipe", recipe, "--only", "obs-0001")
+        again = sonarx.read_csv(folder / "out" / "school_pings.csv")
+        same = ("ping_index", "n_voxels", "n_beams", "n_fans", "range_m")
+        self.assertEqual(sorted([r[c] for c in same[:4]] for r in again), sorted([r[c] for c in same[:4]] for r in rows))
+        self.one_line_error("import", SURVEY, *files, "-o", journal, code=2, names="is there already")
+
+    def test_marks_and_bad_pings_and_what_is_left_out(self):
+        folder = self.fresh("import-marks")
+        first = min(r["time_utc"] for r in sonarx.read_csv(OUT / "school_pings.csv") if r["observation"] == "obs-0001")
+        time = f"{first[:4]}{first[5:7]}{first[8:10]} {first[11:13]}{first[14:16]}{first[17:19]}{first[20:23]}0"
+        late = "20991231 2359590000"
+
+        def regions(*corners_and_types):
+            text = f"\ufeffEVRG 7 13.0\r\n{len(corners_and_types)}\r\n"
+            for name, corners, kind in corners_and_types:
+                text += f"\r\n13 {len(corners)} 1 0 6 -1 0\r\n0\r\n0\r\nherring\r\n{' '.join(corners)} {kind}\r\n{name}\r\n"
+            return text.encode()
+        evr = folder / "drawn.evr"
+        evr.write_bytes(regions(("haul 12", [f"{time} 10"], 2), ("whole", [f"{time} -9999.99", f"{time} 9999.99"], 0),
+                                ("part", [f"{time} 30", f"{time} 40"], 0), ("late", [f"{late} 30"], 2)))
+        code, said, told = sonarx.run("import", SURVEY, evr, "-o", folder / "a.jsonl")
+        self.assertEqual(code, 0, told)
+        self.assertIn("0 schools, 0 voxels, 1 mark, 1 bad interval", said)
+        self.assertEqual([re.sub(r"^note import-left-out: .*region (\w+): .*", r"\1", line) for line in told.splitlines()],
+                         ["part", "late"])
+        self.assertEqual([json.loads(line)["cmd"] for line in (folder / "a.jsonl").read_text().splitlines()[1:]], ["event", "bad_ping"])
+        evr.write_bytes(regions(("school", [f"{time} 30", f"{time} 40"], 1)))
+        self.one_line_error("import", SURVEY, evr, "-o", folder / "b.jsonl", code=2, names="its notes name no fan")
+        self.one_line_error("import", SURVEY, evr, "-o", SURVEY / "b.jsonl", "--fan", "3", code=2, names="raw files")
+        evr.write_bytes(regions(("late", [f"{late} 30"], 2)).replace(b"\r\n1\r\n", b"\r\n7\r\n", 1))
+        self.one_line_error("import", SURVEY, evr, "-o", folder / "b.jsonl", code=1, names=f"{evr}: line 10: the file ends; expected a region")
+        evr.write_bytes(regions(("late", [f"{late} 30"], 2)))
+        code, said, told = sonarx.run("import", SURVEY, evr, "-o", folder / "b.jsonl", "-q")
+        self.assertEqual((code, said, len(told.splitlines())), (1, "", 1), told)
+        self.assertFalse((folder / "b.jsonl").exists())
+
+    def test_a_line_is_drawn_over_depth(self):
+        folder = self.fresh("line-of-echoview")
+        line = folder / "bottom.evl"
+        line.write_text("EVBD 3 13.0\n2\n20200101 0000000000 50 3\n20210101 0000000000 150 3\n")
+        self.sonarx("render", "echogram", OUT, "--depth", "--line", line, "-o", folder / "line.svg")
+        self.sonarx("render", "echogram", OUT, "--depth", "-o", folder / "none.svg")
+        self.assertGreater((folder / "line.svg").stat().st_size, (folder / "none.svg").stat().st_size)
+        self.one_line_error("render", "echogram", OUT, "--line", line, "-o", folder / "x.png", code=2, names="--depth")
+        line.write_text("EVBD 3 13.0\n2\n20200101 0000000000 deep 3\n")
+        self.one_line_error("render", "echogram", OUT, "--depth", "--line", line, "-o", folder / "x.png", code=1,
+                            names=f"{line}: line 3: expected")
 
 
 class Page(html.parser.HTMLParser):

@@ -68,15 +68,23 @@ class Cells:
                     self.area[edsu, b] = self.area.get((edsu, b), 0) + area
                 top, bottom = (depth - r * np.sin(x)[:, None] for x in (e[1:], e[:-1]))
                 axis = -elevation[:, None, None]
+                scale = np.sqrt(8 * math.log(2)) / width[:, :, None]
+
+                def heard_above(z):
+                    """Share of each beam's echo that comes from above a depth, but for a constant."""
+                    with np.errstate(divide="ignore", invalid="ignore"):
+                        dip = np.arcsin(np.clip((z - depth) / r, -1, 1))[None, None, :] - axis
+                    return 0.5 * erf(dip * scale)
+
+                below = heard_above(0.0)
                 for c in range(int(bottom[:, used].max() / CHANNEL_M) + 1):
                     z0, z1 = c * CHANNEL_M, (c + 1) * CHANNEL_M
                     with np.errstate(divide="ignore", invalid="ignore"):
                         share = np.clip(np.minimum(bottom, z1) - np.maximum(top, z0), 0, None) / (bottom - top)
-                        dips = [np.arcsin(np.clip((z - depth) / r, -1, 1))[None, None, :] - axis for z in (z0, z1)]
                     share[:, ~used] = 0
                     v = volume * share[:, None, :]
-                    scale = np.sqrt(8 * math.log(2)) / width[:, :, None]
-                    beam = 0.5 * (erf(dips[1] * scale) - erf(dips[0] * scale))
+                    above, below = below, heard_above(z1)
+                    beam = below - above
                     for b in range(at_bin.max() + 1):
                         of = at_bin == b
                         part = v[:, :, of]

@@ -77,6 +77,9 @@ class Movement(Case):
             if row["speed_away_mps"]:
                 slack = 0.2 + 3 * float(row["speed_away_se_mps"])  # the speed is freed of noise, its part is not
                 self.assertLessEqual(abs(float(row["speed_away_mps"])), float(row["speed_smoothed_mps"]) + slack)
+            # What has a velocity has its errors, and what is taken for still has none.
+            for name in ("time_to_cpa_se_s", "cpa_se_m", "vertical_speed_smoothed_se_mps"):
+                self.assertEqual(bool(row[name]), bool(row["speed_smoothed_mps"]), name)
 
     def test_pooled_table(self):
         dest = self.fresh("movement-export")
@@ -90,6 +93,14 @@ class Movement(Case):
         self.sonarx("render", "survey-map", self.out, "--out", self.folder / "map.png", "--size", "800x600")
         self.sonarx("render", "chart", self.out, "--x", "time_to_cpa_s", "--y", "speed_away_mps", "--out",
                     self.folder / "chart.png", "--size", "800x600")
+
+    def test_the_volume_has_arrows_unless_they_are_not_wanted(self):
+        picture = self.folder / "volume.png"
+        view = ("render", "volume", self.out, "--masks-alone", "--frames", "0", "--renderer", "cpu", "--size", "500x400")
+        self.sonarx(*view, "--out", picture)
+        same = ("--reference", picture, "--largest-difference", 0, "--mean-difference", 0)
+        self.sonarx(*view, *same)
+        self.assertEqual(sonarx.run(*view, "--no-current-arrows", *same)[0], 1)
 
     def test_a_file_that_is_none_is_refused_in_one_line(self):
         bad = self.folder / "bad.nc"

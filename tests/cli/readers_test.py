@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Products and maps as other people's programs read them: netCDF4, ncdump, UDUNITS, xarray, OGR, and R and QGIS where they are
 installed (tools/setup.sh readers)."""
+import json
 import re
 import shutil
 import sqlite3
@@ -221,6 +222,17 @@ class Map(Case):
         self.assertEqual((code, error), (0, ""))
         for layer in self.layers:
             self.assertIn(f"Layer name: {layer}", told)
+
+    @unittest.skipUnless(shutil.which("ogrinfo"), "gdal-bin is not installed")
+    def test_ogr_reads_the_layers_as_geojson_too(self):
+        folder = self.fresh("ogr-geojson")
+        self.sonarx("export", OUT, "--to", "geojson", "-o", folder)
+        files = sorted(folder.rglob("*.geojson"))
+        self.assertTrue(files)
+        for file in files:
+            code, told, error = said("ogrinfo", "-ro", "-al", "-so", file)
+            self.assertEqual((code, error), (0, ""))
+            self.assertIn(f"Feature Count: {len(json.loads(file.read_text())['features'])}\n", told)
 
     def test_schools_have_numbers_that_are_unique_in_the_survey(self):
         schools = sonarx.read_csv(OUT / "schools.csv")

@@ -14,7 +14,7 @@ WORK = Path(os.environ.get("SONAR_WORK", PROJECT / "build" / "tests-cli")).resol
 SURVEY, OUT = WORK / "survey", WORK / "out"
 TRUTH = SURVEY / "truth"
 
-VERBS = ["info", "simulate", "calibrate", "run", "plan", "follow", "merge", "submit", "status", "check", "integrate", "biomass", "propagate", "export", "score", "agree", "compare", "recipe", "render"]
+VERBS = ["info", "simulate", "calibrate", "run", "plan", "follow", "merge", "submit", "status", "check", "integrate", "biomass", "propagate", "import", "export", "score", "agree", "compare", "recipe", "render"]
 SCHOOL_PINGS = (
     "observation,school_id,ping_index,time_utc,latitude,longitude,depth_m,range_m,bearing_deg,n_voxels,n_beams,n_fans,"
     "volume_m3,length_m,width_m,height_m,axis_deg,depth_min_m,depth_max_m,sv_mean_db,sv_p95_db,sv_max_db,backscatter_m2,"
@@ -30,7 +30,9 @@ SCHOOL_PINGS = (
     "speed_smoothed_mps,speed_smoothed_se_mps,course_smoothed_deg,vertical_speed_smoothed_mps,"
     "speed_water_smoothed_mps,course_water_smoothed_deg,relative_bearing_deg,ship_speed_mps,course_away_deg,"
     "speed_away_mps,speed_away_se_mps,speed_away_water_mps,time_to_cpa_s,cpa_m,wake_distance_m,depth_error_m,"
-    "extinction_loss_db,extinction_share,extinction_share_low,extinction_share_high,extinction_corrected").split(",")
+    "extinction_loss_db,extinction_share,extinction_share_low,extinction_share_high,extinction_corrected,"
+    "course_smoothed_se_deg,vertical_speed_smoothed_se_mps,speed_water_smoothed_se_mps,course_water_smoothed_se_deg,"
+    "course_away_se_deg,speed_away_water_se_mps,time_to_cpa_se_s,cpa_se_m").split(",")
 SCHOOLS = (
     "observation,school_id,continues,first_time_utc,last_time_utc,n_pings,n_pings_whole,latitude,longitude,depth_m,"
     "volume_m3,volume_corrected_m3,length_m,width_m,height_m,sv_mean_db,sv_corrected_db,backscatter_m2,speed_mps,"
@@ -82,6 +84,19 @@ def snapshot(folder):
 def contents(folder):
     """The same without times."""
     return {name: (size, digest) for name, (size, _, digest) in snapshot(folder).items()}
+
+
+def simulate_tiny(folder, observations, pings):
+    """A survey of 160 beams, a third of the tests' own, for what is done a hundred times: its raw files' folder."""
+    beams = [f"{16 * fan + beam},900,{2.5 * fan - 30},{-20 + 2.5 * beam},{80000 + 2000 * fan},3,3,27,-27,0,1000,0.03"
+             for fan in range(10) for beam in range(16)]
+    columns = ("channel,count,elevation_deg,azimuth_deg,frequency_hz,vertical_width_deg,horizontal_width_deg,gain_db,psi_db,"
+               "sa_correction_db,power_w,absorption_db_per_m")
+    (folder / "beams.csv").write_text("\n".join([columns, *beams]) + "\n", encoding="ascii")
+    code, _, err = run("simulate", folder / "sound", "--preset", "easy", "--seed", 5, "--observations", observations,
+                       "--pings", pings, "--schools", 2, "--beams", folder / "beams.csv")
+    assert code == 0, err
+    return folder / "sound"
 
 
 class Case(unittest.TestCase):

@@ -85,6 +85,8 @@ class Access : public WindowAtWork {
     in_dialog("file.figure", "figure", hands);
     in_dialog("noise.choose", "parameters", hands);
     in_dialog("file.calibration_in_force", "rows_dialog", hands);
+    in_dialog("file.sphere", "sphere", hands);
+    in_dialog("file.setup_check", "setup", hands);
     in_dialog("help.keys", "key_sheet", hands);
   }
   QWidget* batch_window() {
@@ -245,7 +247,9 @@ class InAnotherLanguage : public Access {
   /// Labels, buttons and placeholders that are seen and are English. What is told (objects of these names) is made as it
   /// happens, and rows are data.
   static Lines english(const QWidget& top) {
-    static const std::set<QString> kTold{"told", "play_rate", "live_text", "recipe_file", "key_said"};
+    static const std::set<QString> kTold{
+        "told",        "play_rate", "live_text", "preview_before_schools", "preview_after_schools",
+        "recipe_file", "key_said",  "run"};
     Lines out;
     const auto look = [&](const QWidget& at, const QString& text) {
       const bool qt = at.objectName().startsWith("qt_") || at.parentWidget()->inherits("QDialogButtonBox");

@@ -7,6 +7,7 @@
 #include <QComboBox>
 #include <QDialog>
 #include <QDialogButtonBox>
+#include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSpinBox>
@@ -104,9 +105,11 @@ TEST_F(Asked, ATurntableTurnsOnePing) {
 TEST_F(Asked, ARecipeThatIsEditedShowsItsPictureBesideTheOneInForce) {
   look_at_school();
   RecipeComparison* both = nullptr;
+  std::shared_ptr<ParameterSource> recipe;
   const auto real = app_->dialogs.recipe;
-  app_->dialogs.recipe = [&both, real](RecipeEditor& editor) {
+  app_->dialogs.recipe = [&both, &recipe, real](RecipeEditor& editor) {
     both = editor.comparison();
+    recipe = editor.sections({}, false).front().source;
     return real(editor);
   };
   trigger("file.recipe", [&](QDialog& dialog) {
@@ -135,6 +138,15 @@ TEST_F(Asked, ARecipeThatIsEditedShowsItsPictureBesideTheOneInForce) {
     EXPECT_NE(both->edited.image(), edited) << "unfiltered";
     EXPECT_EQ(both->in_force.image(), in_force);
     EXPECT_NE(after->grab().toImage(), seen) << "and seen";
+    auto* before_found = dialog.findChild<QLabel*>("preview_before_schools");
+    auto* after_found = dialog.findChild<QLabel*>("preview_after_schools");
+    ASSERT_TRUE(before_found != nullptr && after_found != nullptr);
+    EXPECT_THAT(before_found->text().toStdString(), testing::HasSubstr("in this ping, "));
+    ASSERT_TRUE(recipe->set("detect.min_beams", 1000));
+    settle_pictures();
+    EXPECT_EQ(after_found->text(), "no school in this ping");
+    EXPECT_EQ(both->edited.schools_text(), "no school in this ping");
+    EXPECT_THAT(before_found->text().toStdString(), testing::HasSubstr("in this ping, "));
     press_button(dialog, QDialogButtonBox::Cancel);
   });
   EXPECT_TRUE(document().recipe().median.enabled) << "declined";

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <QComboBox>
 #include <QDialog>
 #include <QDoubleSpinBox>
 #include <QLabel>
@@ -12,6 +13,7 @@
 #include <QTabBar>
 #include <QTabWidget>
 #include <QTimer>
+#include <QTreeView>
 #include <QTreeWidget>
 #include <functional>
 
@@ -176,6 +178,47 @@ TEST_F(Keys, PreferencesFollowAtOnceAndCancelBringsBackWhatWasThere) {
   keep_picture("preferences-large-window");
   ASSERT_TRUE(workspace().window.set("text_size_percent", 100.0));
   settle();
+}
+
+TEST_F(Keys, UnitsAreChosenInThePreferencesAndTheWholeWindowFollowsAtOnce) {
+  const Target target = look_at_school();
+  const auto read_out_line = [&] {
+    move("side_slice", place_in("side_slice", target.voxel));
+    return window_->statusBar()->findChild<QLineEdit*>("read_out")->text().toStdString();
+  };
+  const auto header = [&](const char* title) {
+    const auto* model = view("schools")->findChild<QTreeView*>("rows")->model();
+    for (int c = 0; c < model->columnCount(); ++c) {
+      const QString text = model->headerData(c, Qt::Horizontal).toString();
+      if (text.startsWith(title)) return text.toStdString();
+    }
+    return std::string();
+  };
+  auto& side = dynamic_cast<SliceModel&>(*app_->picture("side_slice"));
+  EXPECT_THAT(read_out_line(), HasSubstr(" m, depth "));
+  EXPECT_EQ(header("Depth"), "Depth [m]");
+  EXPECT_EQ(side.picture()->plot.y.label, "depth (m)");
+  in_preferences([&](QDialog& dialog) {
+    show_page(dialog, "Units");
+    const auto next = [&](const char* name, const char* what) {
+      auto* box = dialog.findChild<QComboBox*>(name);
+      ASSERT_NE(box, nullptr) << name;
+      ASSERT_TRUE(box->isVisible()) << name;
+      box->setFocus();
+      while (box->currentText() != what && box->currentIndex() + 1 < box->count()) QTest::keyClick(box, Qt::Key_Down);
+      EXPECT_EQ(box->currentText(), what);
+    };
+    next("length_unit", "Feet");
+    next("speed_unit", "Knots");
+    settle();
+    EXPECT_EQ(header("Depth"), "Depth [ft]") << "at once";
+    EXPECT_EQ(side.picture()->plot.y.label, "depth (ft)") << "at once";
+    keep(dialog, "preferences-units");
+    press_button(dialog, "OK");
+  });
+  EXPECT_EQ(workspace().units(), (Units{LengthUnit::feet, SpeedUnit::knots}));
+  EXPECT_THAT(read_out_line(), HasSubstr(" ft, depth "));
+  keep_picture("units-feet");
 }
 
 TEST_F(Keys, AKeyIsChangedByPressingItAndOneThatIsTakenIsRefused) {

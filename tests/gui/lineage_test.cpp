@@ -51,5 +51,29 @@ TEST_F(LineageInTheWindow, ASchoolIsCutHandedOverJoinedAndUndoneByHand) {
   EXPECT_EQ(document().state().schools.size(), 2U);
 }
 
+TEST_F(LineageInTheWindow, EscapeDuringADragLeavesTheSchoolWhole) {
+  key(Qt::Key_4, Qt::AltModifier | Qt::ShiftModifier);
+  raise("lineage");
+  const Target target = look_at_school();
+  click("top_slice", place_in("top_slice", target.voxel));
+  key(Qt::Key_P, Qt::ControlModifier);
+  ASSERT_TRUE(lineage().sight()) << lineage().problem();
+  const std::int64_t first = masks().front().ping_index;
+  const std::size_t pings = masks().size();
+  ASSERT_GE(pings, 4U);
+  const std::size_t drawn = lineage().overlays().size();
+  press_on(view("lineage"), at(0, first + 2));
+  move("lineage", at(1, first + 2));
+  EXPECT_GT(lineage().overlays().size(), drawn) << "what letting go would do is seen";
+  key(Qt::Key_Escape);
+  EXPECT_EQ(lineage().overlays().size(), drawn);
+  release_on(view("lineage"), at(1, first + 2));
+  EXPECT_EQ(document().state().schools.size(), 1U);
+  EXPECT_EQ(masks().size(), pings);
+  EXPECT_TRUE(workspace().school()) << "Escape ended the drag, not the selection";
+  drag("lineage", at(0, first + 2), at(1, first + 2));
+  EXPECT_EQ(document().state().schools.size(), 2U) << "the next drag cuts again";
+}
+
 }  // namespace
 }  // namespace sonar

@@ -5,8 +5,10 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
+#include <QListWidget>
 #include <QPushButton>
 #include <QTabWidget>
+#include <fstream>
 
 #include "gui/biomass_window.h"
 #include "gui/integration_window.h"
@@ -109,6 +111,19 @@ TEST_F(NumbersInWindow, FishAreCountedAndWritten) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return view->picture().image().size.width > 0; }, 30'000))
       << view->picture().problem();
   keep(*page, "causes");
+  const fs::path relations = TestSurvey::easy().fresh() / "ts.csv";
+  std::ofstream(relations) << "name,species,frequency_from_khz,frequency_to_khz,aspect,m_db,b_db,d_db,line_share,"
+                              "any_aspect_share,heading_sd_deg,tilt_sd_deg,recalled,source\n"
+                              "own,herring,70,120,side,20,-70,0,,,,,no,tank of today\n";
+  app_->dialogs.file_to_open = [relations](const auto&, const auto&) { return relations.string(); };
+  press(*page, "open_relations");
+  EXPECT_TRUE(page->findChild<QLabel*>("relation_text")->text().contains("tank of today"));
+  EXPECT_EQ(page->findChild<QListWidget*>("relations")->count(), 1);
+  auto* choice = page->findChild<QComboBox*>("relation");
+  ASSERT_NE(choice, nullptr);
+  EXPECT_EQ(choice->count(), 1);
+  EXPECT_EQ(choice->currentText(), "own");
+  app_->fish->settle();
   press(*page, "incidence");
   EXPECT_TRUE(workspace().views.values().chart);
   const fs::path out = TestSurvey::easy().fresh();

@@ -5,7 +5,6 @@
 #include <QComboBox>
 #include <QDialog>
 #include <QDialogButtonBox>
-#include <QElapsedTimer>
 #include <QLabel>
 #include <QPushButton>
 #include <QTimer>
@@ -35,12 +34,6 @@ class SetupPagesInWindow : public WindowAtWork {
     find_action(*window_, action)->trigger();
     EXPECT_FALSE(looks.isActive()) << "the page did not open";
   }
-  static void until(const std::function<bool()>& come) {
-    QElapsedTimer waited;
-    waited.start();
-    while (!come() && waited.elapsed() < 30'000) QApplication::processEvents(QEventLoop::WaitForMoreEvents, 100);
-    EXPECT_TRUE(come());
-  }
 };
 
 TEST_F(SetupPagesInWindow, AFitThatFindsNoSphereSaysSoAndTheWindowGoesOn) {
@@ -50,7 +43,7 @@ TEST_F(SetupPagesInWindow, AFitThatFindsNoSphereSaysSoAndTheWindowGoesOn) {
     EXPECT_FALSE(page.findChild<QPushButton*>("write")->isEnabled());
     EXPECT_FALSE(page.findChild<QPushButton*>("use")->isEnabled());
     QTest::mouseClick(start, Qt::LeftButton);
-    until([&] { return !page.findChild<QLabel*>("told")->text().isEmpty(); });
+    EXPECT_TRUE(QTest::qWaitFor([&] { return !page.findChild<QLabel*>("told")->text().isEmpty(); }, 30'000));
     EXPECT_TRUE(start->isEnabled());
   });
   settle();
@@ -66,7 +59,7 @@ TEST_F(SetupPagesInWindow, APageCanBeClosedWhileItFits) {
 
 TEST_F(SetupPagesInWindow, TheSetupCheckProposesNothingWithoutSchools) {
   in_page("file.setup_check", "setup", [this](QDialog& page) {
-    until([&] { return document().all_measured() && !document().measuring(); });
+    EXPECT_TRUE(QTest::qWaitFor([&] { return document().all_measured() && !document().measuring(); }, 30'000));
     EXPECT_FALSE(page.findChild<QPushButton*>("use")->isEnabled());
   });
 }

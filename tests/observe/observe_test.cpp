@@ -19,7 +19,9 @@
 #include "io/simrad/test_bytes.h"
 #include "observed_survey.h"
 #include "pipeline/journal/manual.h"
+#include "pipeline/stages/detect_pings.h"
 #include "pipeline/stages/engine.h"
+#include "pipeline/stages/ping_schools.h"
 #include "pipeline/survey/survey.h"
 #include "pipeline/tasks/compare.h"
 
@@ -57,6 +59,33 @@ TEST_F(Observe, PingsInAnyOrderAreTheSamePings) {
   for (std::int64_t i = backwards.pings() - 1; i >= 0; --i) {
     EXPECT_EQ(backwards.staged(i)->filtered->counts, filtered[static_cast<std::size_t>(i)]) << "ping " << i;
   }
+}
+
+TEST_F(Observe, APingAloneShowsWhatDetectionFindsThereInTheWholeObservation) {
+  Work work(2);
+  Engine engine(*survey_, observation(), {});
+  ASSERT_TRUE(engine.estimate_background(0, engine.pings() - 1, work));
+  ObservationProduct product = *product_;
+  const auto whole = detect_pings(engine, {0, engine.pings() - 1}, product, work);
+  ASSERT_EQ(whole.size(), static_cast<std::size_t>(engine.pings()));
+  std::size_t found = 0;
+  for (const std::int64_t ping : {0, 7, 8, 23}) {  // at both ends, and where one group of pings meets the next
+    const auto& expected = whole[static_cast<std::size_t>(ping)].detections;
+    const auto ready = PingBeforeDetection::of(*survey_, observation(), {}, ping, work);
+    ASSERT_TRUE(ready);
+    const auto alone = (*ready)->schools({});
+    ASSERT_EQ(alone.size(), expected.size()) << ping;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_EQ(alone[i].mask, expected[i].mask) << ping;
+      EXPECT_EQ(alone[i].volume_m3, expected[i].volume_m3) << ping;
+    }
+    found += expected.size();
+  }
+  EXPECT_GT(found, 0U);
+  work.cancel();
+  const auto stopped = PingBeforeDetection::of(*survey_, observation(), {}, 7, work);
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, ErrorCode::cancelled);
 }
 
 TEST_F(Observe, PingsThatWereLeftOutAreTold) {

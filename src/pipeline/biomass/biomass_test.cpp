@@ -93,6 +93,7 @@ TEST(FishLengths, are_read_with_their_shares) {
   EXPECT_THAT(lengths_refused("length_cm,count\n0,1\n"), HasSubstr("line 2: expected a length"));
   EXPECT_THAT(lengths_refused("length_cm,count,fraction\n20,1,1\n"), HasSubstr("line 1: expected the columns"));
   EXPECT_THAT(lengths_refused("length_cm,count\n20,0\n"), HasSubstr("tells of no fish"));
+  EXPECT_THAT(lengths_refused("length_cm,fraction\n20,1e308\n30,1e308\n"), HasSubstr("line 2: expected a share"));
 }
 
 constexpr double kFish = 50000.0;

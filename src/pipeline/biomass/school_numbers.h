@@ -7,10 +7,10 @@
 
 #include "base/time.h"
 #include "model/biomass.h"
+#include "model/fish_lengths.h"
 #include "model/product.h"
-#include "school/strength/fish_lengths.h"
+#include "model/ts_relation.h"
 #include "school/strength/fish_numbers.h"
-#include "school/strength/ts_relation.h"
 
 namespace sonar {
 

@@ -9,7 +9,7 @@
 
 #include "base/result.h"
 #include "io/csv_table.h"
-#include "school/strength/ts_relation.h"
+#include "model/ts_relation.h"
 
 namespace sonar {
 

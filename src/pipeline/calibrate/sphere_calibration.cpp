@@ -150,6 +150,24 @@ std::size_t SphereCalibration::crossed() const {
       std::count_if(beams.begin(), beams.end(), [](const CalibratedBeam& b) { return b.crossed; }));
 }
 
+Result<SphereSize> sphere_size(std::string_view name) {
+  const auto sphere = named_sphere(name);
+  if (!sphere) return pass_on(sphere);
+  const auto at = std::find_if(kSphereMaterials.begin(), kSphereMaterials.end(),
+                               [&](const SphereMaterial& one) { return one.name == sphere->material.name; });
+  return SphereSize{static_cast<std::size_t>(at - kSphereMaterials.begin()), sphere->diameter_m * 1e3};
+}
+
+std::string sphere_name(const SphereSize& size) {
+  return fmt::format("{}{}", kSphereMaterials[size.material].name, size.diameter_mm);
+}
+
+std::string material_text(std::size_t material) {
+  const SphereMaterial& m = kSphereMaterials[material];
+  return fmt::format("{}: {} kg/m\u00B3, {} and {} m/s ({})", m.text, m.density_kg_per_m3, m.longitudinal_mps,
+                     m.transverse_mps, m.source);
+}
+
 Result<SphereRunParams> sphere_run_params(const SphereChoice& choice, const WaterProperties& recipe_water,
                                           const SurveyFiles& survey) {
   const auto sphere = named_sphere(choice.sphere);

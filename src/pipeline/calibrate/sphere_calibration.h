@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/result.h"
@@ -21,6 +23,20 @@ struct SphereChoice {
   double range_to_m = 1e9;
   std::optional<WaterProperties> water = {};  ///< measured around the sphere; empty = the sound speed of the raw files
 };
+
+/// A sphere by the number of its material and its diameter, for fields that a human sets.
+struct SphereSize {
+  std::size_t material = 0;  ///< < kSphereMaterialCount
+  double diameter_mm = 0.0;
+};
+inline constexpr std::size_t kSphereMaterialCount = kSphereMaterials.size();
+/// errors  as named_sphere()
+[[nodiscard]] Result<SphereSize> sphere_size(std::string_view name);
+/// "wc38.1": as named_sphere() takes it.
+[[nodiscard]] std::string sphere_name(const SphereSize& size);
+/// What a material is, with its figures and their source, in a line.
+[[nodiscard]] std::string material_text(std::size_t material);
+
 /// What is meant by it. Without measured water the sound speed is that of the first observation with fans of beams (of the
 /// recipe's water where there is none), and the density that of the recipe's water.
 /// errors  usage: "sphere ...", "range ...", "water ...": no such sphere, ranges that do not rise, water that is none

@@ -11,6 +11,7 @@
 
 #include "base/middle.h"
 #include "base/number_text.h"
+#include "base/units.h"
 #include "io/atomic_file.h"
 #include "io/csv_table.h"
 #include "pipeline/survey/calibration_json.h"
@@ -153,6 +154,26 @@ double residual_rms_db(const SphereCalibration& made, const CalibratedBeam& beam
   return n > 0 ? std::sqrt(sum / n) : kUnknown;
 }
 
+double off_axis_deg(const SphereCalibration& made, std::size_t level) {
+  const FaceDirection& a = made.fit.directions[static_cast<std::size_t>(made.levels[level].ping)];
+  const FaceDirection& b = made.fit.beams[static_cast<std::size_t>(made.levels[level].beam)].centre;
+  const auto off_face = [](const FaceDirection& d) {
+    return std::sqrt(std::max(0.0, 1.0 - d.across * d.across - d.up * d.up));
+  };
+  // By the chord: the arc's cosine tells small angles badly.
+  const double chord = std::hypot(a.across - b.across, a.up - b.up, off_face(a) - off_face(b));
+  return deg_from_rad(2.0 * std::asin(std::min(1.0, 0.5 * chord)));
+}
+
+std::string sphere_text(const SphereRunParams& params) {
+  return fmt::format("{}, {:.1f} mm", params.sphere.material.text, params.diameter_mm());
+}
+
+std::string crossed_text(const SphereCalibration& made) {
+  return fmt::format("{} of {} beams crossed; residuals {:.3f} dB, of which the form of the pattern {:.3f} dB",
+                     made.crossed(), made.beams.size(), made.fit.residual_rms_db, made.fit.form_se_db);
+}
+
 Result<void> write_calibration(const SphereCalibration& made, const std::filesystem::path& file) {
   return write_file(file, calibration_csv(made));
 }
@@ -182,14 +203,11 @@ std::string calibration_csv(const SphereCalibration& made) {
 }
 
 std::string calibration_text(const SphereCalibration& made, const SphereRunParams& params, bool every_beam) {
-  const SphereMaterial& material = params.sphere.material;
   std::string text = fmt::format(
-      "sphere: {}, {:.1f} mm; water around it {:.1f} m/s, {:.1f} kg/m3\n"
-      "found in {} of {} pings at {:.1f} to {:.1f} m, used in {}\n"
-      "{} of {} beams crossed; residuals {:.3f} dB, of which the form of the pattern {:.3f} dB\n",
-      material.text, params.sphere.diameter_m * 1e3, params.water.sound_speed_mps, params.water.density_kg_per_m3,
-      made.found, made.pings, made.range_from_m, made.range_to_m, made.used, made.crossed(), made.beams.size(),
-      made.fit.residual_rms_db, made.fit.form_se_db);
+      "sphere: {}; water around it {:.1f} m/s, {:.1f} kg/m3\n"
+      "found in {} of {} pings at {:.1f} to {:.1f} m, used in {}\n{}\n",
+      sphere_text(params), params.water.sound_speed_mps, params.water.density_kg_per_m3, made.found, made.pings,
+      made.range_from_m, made.range_to_m, made.used, crossed_text(made));
   text += fan_lines(made);
   if (every_beam) text += beam_lines(made);
   text += fans_near_null(made);
@@ -206,7 +224,7 @@ std::string calibration_json_text(const SphereCalibration& made, const SphereRun
       {"sphere",
        {{"material", m.name},
         {"source", m.source},
-        {"diameter_mm", params.sphere.diameter_m * 1e3},
+        {"diameter_mm", params.diameter_mm()},
         {"density_kg_per_m3", m.density_kg_per_m3},
         {"longitudinal_mps", m.longitudinal_mps},
         {"transverse_mps", m.transverse_mps}}},

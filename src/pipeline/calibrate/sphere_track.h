@@ -21,6 +21,7 @@ struct SphereRunParams {
   WaterAround water;           ///< around the sphere
   double range_from_m = 10.0;  ///< the sphere lies between these
   double range_to_m = 1e9;
+  [[nodiscard]] double diameter_mm() const { return sphere.diameter_m * 1e3; }
 };
 
 /// One observation's beams as a sphere is looked for in them, [row]: fan * beams + beam.

@@ -5,10 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <functional>
 #include <utility>
 
+#include "io/atomic_file.h"
 #include "io/csv.h"
+#include "io/lsss_work.h"
 #include "io/mask_volume.h"
 #include "io/product_file.h"
 #include "io/survey_layers.h"
@@ -20,6 +24,8 @@
 #include "pipeline/exports/export_sv.h"
 #include "pipeline/exports/export_vtk.h"
 #include "pipeline/exports/track_edges.h"
+#include "pipeline/journal/earlier.h"
+#include "pipeline/stages/placements.h"
 #include "pipeline/tasks/merge.h"
 #include "pipeline/tasks/plan.h"
 #include "pipeline/tasks/survey_numbers.h"
@@ -30,7 +36,7 @@ namespace {
 namespace fs = std::filesystem;
 using Files = std::vector<fs::path>;
 
-constexpr std::array<ExportFormat, 14> kFormats = {{
+constexpr std::array<ExportFormat, 15> kFormats = {{
     {"csv", "schools.csv, school_pings.csv and tracks_edges.csv"},
     {"netcdf-mask", "masks as whole arrays [ping][fan][beam][sample], one netCDF file an observation"},
     {"gpkg", "the survey map as one GeoPackage"},
@@ -41,6 +47,7 @@ constexpr std::array<ExportFormat, 14> kFormats = {{
     {"vts", "Sv and masks on the curved grid for ParaView, likewise; needs --survey", true},
     {"ices", "acoustic XML of ICES, which StoX reads, from the tables of integrate"},
     {"echoview", "regions of each fan (.evr, depth = slant range) and the seabed (.evl)"},
+    {"lsss", "school masks in the XML of LSSS, one work file an observation"},
     {"sv", "calibrated Sv, unfiltered and filtered, with masks, flags and background; needs --survey", true},
     {"avoidance",
      "avoidance.csv: speed, direction, depth and density of schools against range, bearing and time to closest "
@@ -136,7 +143,7 @@ Result<Exported> export_map(const Source& source, const fs::path& dest, MapForma
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
     const auto product = with_masks(source, i);
     if (!product) return pass_on(product);
-    if (auto added = map->add(*product); !added) return pass_on(added);
+    if (auto added = map->add(*product, ProductPlacements(*product).rays()); !added) return pass_on(added);
     work.progress("map", static_cast<std::int64_t>(i) + 1, std::ssize(source.files));
   }
   if (auto finished = map->finish(); !finished) return pass_on(finished);
@@ -144,10 +151,12 @@ Result<Exported> export_map(const Source& source, const fs::path& dest, MapForma
 }
 
 /// Files of one observation each.
-using ObservationWriter = Result<Files> (*)(const ObservationProduct& product, const fs::path& dest, const Work& work);
+using ObservationWriter =
+    std::function<Result<Files>(const ObservationProduct& product, const fs::path& dest, const Work& work)>;
 
 /// errors  unsupported: none of the observations has anything for the format
-Result<Exported> export_each(const Source& source, const ExportOptions& options, ObservationWriter write, Work& work) {
+Result<Exported> export_each(const Source& source, const ExportOptions& options, const ObservationWriter& write,
+                             Work& work) {
   Exported done;
   for (std::size_t i = 0; i < source.files.size(); ++i) {
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
@@ -163,6 +172,19 @@ Result<Exported> export_each(const Source& source, const ExportOptions& options,
               fmt::format("no school has a mask in a ping with position and heading: there is nothing for {} to hold",
                           options.format),
               {.file = options.out.string()});
+}
+
+/// DEST/obs-0001.work of each observation that has masks.
+Result<Exported> export_lsss(const Source& source, const ExportOptions& options, Work& work) {
+  const auto write = [&](const ObservationProduct& product, const fs::path& dest, const Work&) -> Result<Files> {
+    const auto offset_ns = static_cast<TimeNs>(std::llround(time_offset_s(product.recipe_json) * 1e9));
+    const std::string text = lsss_work_text(product, offset_ns, options.lsss);
+    if (text.empty()) return Files{};
+    Files files = {dest / (product.observation + ".work")};
+    if (auto written = write_file(files[0], text); !written) return pass_on(written);
+    return files;
+  };
+  return export_each(source, options, write, work);
 }
 
 /// The raw files of the products, under their recipe.
@@ -301,6 +323,7 @@ Result<Exported> export_products(const ExportOptions& options, Work& work) {
     return Exported{std::move(*files)};
   }
   if (format->name == "echoview") return export_each(*source, options, export_echoview, work);
+  if (format->name == "lsss") return export_lsss(*source, options, work);
   if (format->name == "vtu") return export_each(*source, options, export_vtu, work);
   if (format->name == "vts") return export_samples(*source, options, export_vts, work);
   if (format->name == "seabed") return export_all_seabed(*source, options, work);

@@ -12,6 +12,7 @@
 #include "base/result.h"
 #include "base/work.h"
 #include "io/csv.h"
+#include "io/lsss_work.h"
 #include "io/seabed_raster.h"
 #include "pipeline/exports/reduce.h"
 
@@ -26,13 +27,14 @@ struct ExportFormat {
 [[nodiscard]] std::span<const ExportFormat> export_formats();
 
 struct ExportOptions {
-  std::filesystem::path out;               ///< work folder of a run
-  std::string format;                      ///< name in export_formats()
-  std::filesystem::path dest;              ///< folder that the files go to
-  std::filesystem::path survey;            ///< folder of the raw files; only where the format needs them
-  ReduceParams reduce;                     ///< for raw-reduced
-  CsvTexts texts = CsvTexts::as_they_are;  ///< for csv
-  SeabedRasterParams seabed = {};          ///< for seabed
+  std::filesystem::path out;                     ///< work folder of a run
+  std::string format;                            ///< name in export_formats()
+  std::filesystem::path dest;                    ///< folder that the files go to
+  std::filesystem::path survey;                  ///< folder of the raw files; only where the format needs them
+  ReduceParams reduce;                           ///< for raw-reduced
+  CsvTexts texts = CsvTexts::as_they_are;        ///< for csv
+  SeabedRasterParams seabed = {};                ///< for seabed
+  LsssNumbering lsss = LsssNumbering::from_one;  ///< for lsss
 };
 
 struct Exported {

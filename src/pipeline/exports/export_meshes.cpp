@@ -12,6 +12,7 @@
 #include "io/mesh_files.h"
 #include "model/local_frame.h"
 #include "model/strongest_ping.h"
+#include "pipeline/stages/placements.h"
 
 namespace sonar {
 namespace {
@@ -37,6 +38,7 @@ Result<Meshes> meshes_of(const ObservationProduct& product, const Work& work) {
   if (!frame || !product.grid) return out;
   out.origin = frame->origin();
   const Sector sector = product.grid->grid.sector(product.grid->range);
+  const ProductPlacements placements(product);
   for (const SchoolRow& school : product.schools) {
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
     if (school.status == "rejected") continue;
@@ -48,7 +50,8 @@ Result<Meshes> meshes_of(const ObservationProduct& product, const Work& work) {
     });
     // A mask lies in a ping that is there; a row of a table may name any.
     if (mask == product.masks.end()) continue;
-    const auto into = frame->ping(product.pings[static_cast<std::size_t>(mask->ping_index)]);
+    const PingNavigation& ping = product.pings[static_cast<std::size_t>(mask->ping_index)];
+    const auto into = frame->ping(ping, placements.of(ping));
     if (!into) continue;
     SurfaceMesh<Enu> mesh = moved(mask_surface(mask->mask, sector), *into);
     if (mesh.triangles.empty()) continue;

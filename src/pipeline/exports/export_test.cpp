@@ -5,12 +5,21 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
 
+#include "base/units.h"
 #include "io/atomic_file.h"
 #include "io/csv.h"
 #include "io/product_example.h"
 #include "io/product_file.h"
+#include "pipeline/exports/export_meshes.h"
 #include "pipeline/recipe/recipe.h"
 
 namespace sonar {
@@ -44,11 +53,24 @@ TEST_F(Export, tables_maps_and_masks) {
   const auto csv = run("csv");
   ASSERT_TRUE(csv) << to_line(csv.error());
   EXPECT_EQ(read_csv_rows<SchoolPingRow>(csv->files.at(1))->size(), 4U);
-  for (const char* format : {"gpkg", "geojson", "netcdf-mask", "ply", "gltf", "vtu", "echoview"}) {
+  for (const char* format : {"gpkg", "geojson", "netcdf-mask", "ply", "gltf", "vtu", "echoview", "lsss"}) {
     const auto files = run(format);
     ASSERT_TRUE(files) << to_line(files.error());
     EXPECT_FALSE(fs::is_empty(folder_ / format)) << format;
   }
+}
+
+// The recipe may have moved the times of pings; other programs know those of the raw files.
+TEST_F(Export, lsss_has_the_times_of_the_datagrams) {
+  ObservationProduct p = example::empty("obs-0001", 5);
+  p.recipe_json = R"({"recipe_version":1,"navigation":{"time_offset_s":-2.5}})";
+  example::add_school(p, 1, 0, 3, example::block(1, 1, 2, 20, 8));
+  ASSERT_TRUE(write_product(p, folder_ / "out" / "products" / "obs-0001.nc"));
+  const auto written = run("lsss");
+  ASSERT_TRUE(written) << to_line(written.error());
+  const auto schools = read_lsss_work(folder_ / "lsss" / "obs-0001.work", LsssNumbering::from_one);
+  ASSERT_TRUE(schools) << to_line(schools.error());
+  EXPECT_EQ(schools->at(0).pings.at(0).time, example::kStart + 2'500'000'000);
 }
 
 TEST_F(Export, schools_have_the_numbers_of_the_tables) {
@@ -65,10 +87,8 @@ TEST_F(Export, refuses_in_one_line) {
   const auto unknown = run("shapefile");
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().code, ErrorCode::usage);
-  EXPECT_THAT(
-      to_line(unknown.error()),
-      HasSubstr(
-          "csv, netcdf-mask, gpkg, geojson, ply, gltf, vtu, vts, ices, echoview, sv, avoidance, seabed, raw-reduced"));
+  EXPECT_THAT(to_line(unknown.error()), HasSubstr("csv, netcdf-mask, gpkg, geojson, ply, gltf, vtu, vts, ices, "
+                                                  "echoview, lsss, sv, avoidance, seabed, raw-reduced"));
   EXPECT_EQ(run("raw-reduced").error().code, ErrorCode::usage);
   EXPECT_EQ(run("vts").error().code, ErrorCode::usage);
   EXPECT_THAT(to_line(run("ices").error()), HasSubstr("sonarx integrate"));
@@ -106,6 +126,59 @@ TEST_F(Export, nothing_is_written_where_raw_files_lie) {
   options.dest = folder_ / "fresh";
   ASSERT_TRUE(write_file(folder_ / "out" / "plan.json", R"({"plan_version":99})"));
   EXPECT_EQ(export_products(options, work_).error().code, ErrorCode::newer_version);
+}
+
+/// Corners of a binary mesh.
+std::vector<std::array<float, 3>> corners_of(const fs::path& ply) {
+  std::ifstream in(ply, std::ios::binary);
+  std::size_t count = 0;
+  for (std::string line; std::getline(in, line) && line != "end_header";) {
+    if (line.starts_with("element vertex ")) count = std::stoul(line.substr(15));
+  }
+  std::vector<std::array<float, 3>> out(count);
+  in.read(reinterpret_cast<char*>(out.data()), static_cast<std::streamsize>(count * sizeof(out[0])));
+  return out;
+}
+
+// Speed falls by 2 m/s each metre from 1490 at the transducer: with u = artanh of the dip's sine, which changes by 2 a second,
+// the level way on an arc is c / (2 cos dip) times the change of tanh u, and the speed is c cosh u0 / cosh u (by hand).
+// Products' ranges are counted at 1490 m/s, and the transducer lies 7 m deep.
+TEST_F(Export, surfaces_lie_where_sound_comes_from) {
+  ObservationProduct p = example::empty("obs-0001", 1);
+  example::add_school(p, 1, 0, 0, example::block(1, 1, 2, 20, 8));
+  const auto surface = [&](bool bends, double roll_deg) {
+    Recipe recipe;
+    recipe.survey.sound_speed_profile = {{0.0, 1504.0}, {100.0, 1304.0}};
+    recipe.survey.bend_rays = bends;
+    recipe.navigation.beams_stabilised = false;
+    p.recipe_json = recipe_text(recipe);
+    p.pings[0].roll_deg = roll_deg;
+    const auto files = export_ply(p, folder_ / (bends ? "bent" : "straight"), work_);
+    EXPECT_TRUE(files && files->size() == 1);
+    return corners_of(files->at(0));
+  };
+  const auto straight = surface(false, 0.0);
+  const auto bent = surface(true, 0.0);
+  ASSERT_GT(straight.size(), 20U);
+  ASSERT_EQ(bent.size(), straight.size());
+  double most_m = 0.0;
+  for (std::size_t i = 0; i < straight.size(); ++i) {
+    const double level_m = std::hypot(straight[i][0], straight[i][1]);
+    const double down_m = -7.0 - static_cast<double>(straight[i][2]);
+    const double range_m = std::hypot(level_m, down_m);
+    const double dip = std::asin(down_m / range_m);
+    const double u0 = std::atanh(std::sin(dip));
+    const double u = u0 + 2.0 * range_m / 1490.0;
+    const double arc_level_m = 1490.0 / (2.0 * std::cos(dip)) * (std::tanh(u) - std::tanh(u0));
+    const double arc_down_m = (1490.0 - 1490.0 * std::cosh(u0) / std::cosh(u)) / 2.0;
+    EXPECT_NEAR(-7.0 - static_cast<double>(bent[i][2]), arc_down_m, 0.05);
+    EXPECT_NEAR(std::hypot(bent[i][0], bent[i][1]), arc_level_m, 0.05);
+    most_m = std::max(most_m, std::abs(arc_down_m - down_m));
+  }
+  EXPECT_GT(most_m, 0.7) << "bending is to be seen";
+  // Port up by 5 degrees, of beams that are not stabilised: what lies 45 m to port is lifted by 45 sin 5 = 4 m.
+  const auto rolled = surface(false, 5.0);
+  EXPECT_NEAR(rolled[0][2] - straight[0][2], 45.0 * std::sin(rad_from_deg(5.0)), 0.7);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "io/vtk_files.h"
 #include "pipeline/exports/export_sv.h"
 #include "pipeline/stages/engine.h"
+#include "pipeline/stages/placements.h"
 #include "pipeline/stages/taken_background.h"
 
 namespace sonar {
@@ -48,11 +49,12 @@ Result<std::vector<fs::path>> write_series(const ObservationProduct& product, co
   std::vector<fs::path> files;
   const auto frame = LocalFrame::of(product);
   if (!frame || !product.grid) return files;
+  const ProductPlacements placements(product);
   std::vector<VtkStep> steps;
   for (const auto& [index, masks] : masks_by_ping(product)) {
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
     const PingNavigation& ping = product.pings[static_cast<std::size_t>(index)];
-    const auto into = frame->ping(ping);
+    const auto into = frame->ping(ping, placements.of(ping));
     if (!into) continue;
     const double seconds = static_cast<double>(ping.time - product.pings.front().time) / kSecondNs;
     const auto bytes = bytes_of({index, masks, *into, seconds});

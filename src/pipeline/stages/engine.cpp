@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/units.h"
+#include "pipeline/stages/placements.h"
 #include "pipeline/stages/reduced_ping.h"
 #include "school/detect/detect_params.h"
 #include "school/detect/thresholder.h"
@@ -49,14 +50,6 @@ void flag_uncalibrated(const Array3<std::int16_t>& table, Volume& volume) {
   }
 }
 
-/// From the depth of the first ping's transducer; null without a profile.
-std::shared_ptr<const Refraction> rays_of(const ObservationFiles& observation, const SoundProfile& profile) {
-  if (profile.empty() || observation.navigation.empty() || observation.range.count == 0) return nullptr;
-  return std::make_shared<const Refraction>(profile, observation.navigation.front().transducer_depth_m,
-                                            observation.sound_speed_mps,
-                                            observation.range.range_m(observation.range.count));
-}
-
 }  // namespace
 
 Engine::Engine(const SurveyFiles& survey, const ObservationFiles& observation, const Recipe& recipe, KnownPings* known)
@@ -67,7 +60,8 @@ Engine::Engine(const SurveyFiles& survey, const ObservationFiles& observation, c
       figures_(sonar::beam_figures(observation.config, grid_, recipe.calibration)),
       sector_(grid_.sector(observation.range)),
       tables_(observation, recipe.calibration),
-      rays_(rays_of(observation, recipe.survey.sound_speed_profile)),
+      rays_(rays_of(recipe.survey.sound_speed_profile, observation.navigation, observation.range,
+                    observation.sound_speed_mps)),
       reckoned_(dead_reckoning(observation.navigation)),
       known_(known),
       levels_(observation.pings.size()),
@@ -85,13 +79,7 @@ Engine::Engine(const SurveyFiles& survey, const ObservationFiles& observation, c
 }
 
 Placement Engine::placement(std::int64_t ping_index) const {
-  const PingNavigation& at = observation_.navigation[static_cast<std::size_t>(ping_index)];
-  Placement placement = at.placement();
-  if (recipe_.survey.bend_rays) placement.rays = rays_;
-  if (recipe_.navigation.beams_stabilised) return placement;
-  placement.roll_rad = rad_from_deg(at.roll_deg);
-  placement.pitch_rad = rad_from_deg(at.pitch_deg);
-  return placement;
+  return placement_under(recipe_, observation_.navigation[static_cast<std::size_t>(ping_index)], rays_);
 }
 
 Result<Engine::Power> Engine::power(std::int64_t ping_index) {

@@ -33,14 +33,20 @@ std::vector<std::optional<WaterLevels>> waters_of(std::span<const std::shared_pt
   return waters;
 }
 
+PingWindow group_window(std::int64_t ping_index, std::int64_t pings) {
+  const std::int64_t first = ping_index / kGroupPings * kGroupPings;
+  return {std::max<std::int64_t>(0, first - kGroupSide), std::min(pings, first + kGroupPings + kGroupSide) - 1};
+}
+
 Result<WaterLevels> GroupWater::of(std::int64_t ping_index) {
   const std::int64_t group = ping_index / kGroupPings;
   const std::int64_t first = group * kGroupPings;
   if (group != group_) {
-    const std::int64_t from = std::max<std::int64_t>(0, first - kGroupSide);
-    const std::int64_t to = std::min(engine_.pings(), first + kGroupPings + kGroupSide);
+    const auto [from, last] = group_window(ping_index, engine_.pings());
     std::vector<std::shared_ptr<StagedPing>> window;
-    for (std::int64_t i = from; i < to; ++i) {
+    for (std::int64_t i = from; i <= last; ++i) {
+      if (work_ != nullptr) work_->progress("water", i - from, last - from + 1);
+      if (work_ != nullptr && work_->cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
       auto ping = engine_.is_bad(i) ? Result<StagedPing>(fail(ErrorCode::format, "bad")) : engine_.staged(i);
       window.push_back(ping ? std::make_shared<StagedPing>(std::move(*ping)) : nullptr);
     }

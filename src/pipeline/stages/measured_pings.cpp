@@ -83,8 +83,11 @@ std::filesystem::path measured_file(const IndexCache& cache, const SurveyFiles& 
 MeasuredPings kept_measured(const std::filesystem::path& file, const std::string& key) {
   const auto sealed = file.empty() ? std::nullopt : SealedFile::open(file, versioned(key));
   const auto bytes = sealed ? sealed->block(0) : std::nullopt;
-  if (!bytes) return {};
-  ArchiveReader reader(*bytes);
+  return bytes ? measured_from(*bytes) : MeasuredPings{};
+}
+
+MeasuredPings measured_from(std::span<const std::byte> bytes) {
+  ArchiveReader reader(bytes);
   std::uint64_t count = 0;
   reader(count);
   MeasuredPings measured;
@@ -101,8 +104,7 @@ MeasuredPings kept_measured(const std::filesystem::path& file, const std::string
   return measured;
 }
 
-void keep_measured(const std::filesystem::path& file, const std::string& key, MeasuredPings& measured) {
-  if (file.empty()) return;
+std::vector<std::byte> measured_bytes(const MeasuredPings& measured) {
   ArchiveWriter writer;
   writer(static_cast<std::uint64_t>(measured.pings.size()));
   for (const auto& [ping_index, ping] : measured.pings) {
@@ -111,7 +113,12 @@ void keep_measured(const std::filesystem::path& file, const std::string& key, Me
     writer(ping.first.low);
     writer(ping.second);
   }
-  const std::array blocks{writer.take()};
+  return writer.take();
+}
+
+void keep_measured(const std::filesystem::path& file, const std::string& key, MeasuredPings& measured) {
+  if (file.empty()) return;
+  const std::array blocks{measured_bytes(measured)};
   SealedFile::store(file, versioned(key), blocks, Beside::own_folder);
   measured.changed = false;
 }

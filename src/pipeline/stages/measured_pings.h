@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,6 +42,9 @@ struct MeasuredPings {
 /// Nothing where there is no such file, it was made of other pings or in another way, or it is damaged.
 /// key  observation_key() of pings and recipe, without a journal
 [[nodiscard]] MeasuredPings kept_measured(const std::filesystem::path& file, const std::string& key);
+/// The bytes that such a file seals, and back; nothing where they are damaged.
+[[nodiscard]] std::vector<std::byte> measured_bytes(const MeasuredPings& measured);
+[[nodiscard]] MeasuredPings measured_from(std::span<const std::byte> bytes);
 /// What cannot be kept is measured again.
 void keep_measured(const std::filesystem::path& file, const std::string& key, MeasuredPings& measured);
 

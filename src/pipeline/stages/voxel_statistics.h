@@ -6,10 +6,10 @@
 
 #include "geo/frames.h"
 #include "geo/sector.h"
+#include "model/extinction_params.h"
 #include "model/mask.h"
 #include "pipeline/stages/engine.h"
 #include "school/measure/echo_statistics.h"
-#include "school/measure/extinction_params.h"
 
 namespace sonar {
 

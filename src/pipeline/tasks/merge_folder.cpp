@@ -16,6 +16,7 @@
 #include "io/survey_layers.h"
 #include "model/school_totals.h"
 #include "pipeline/journal/earlier.h"
+#include "pipeline/stages/placements.h"
 #include "pipeline/tasks/merge.h"
 #include "pipeline/tasks/plan.h"
 #include "pipeline/tasks/survey_numbers.h"
@@ -195,7 +196,7 @@ Result<void> write_map(const fs::path& out, const Survey& survey, const std::vec
     // Rows come from the merge, which knows what continues what; masks from the file.
     ObservationProduct shown = survey.observations[i];
     shown.masks = std::move(product->masks);
-    if (auto added = map->add(shown); !added) return added;
+    if (auto added = map->add(shown, ProductPlacements(shown).rays()); !added) return added;
     work.progress("map", static_cast<std::int64_t>(i) + 1, static_cast<std::int64_t>(files.size()));
   }
   return map->finish();

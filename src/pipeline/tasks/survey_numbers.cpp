@@ -37,19 +37,25 @@ void number_rows(ObservationProduct& product) {
   for (SchoolPingRow& row : product.school_pings) row.survey_school = numbers[row.school_id];
 }
 
+/// No survey has as many schools; what follows the highest number is a number too.
+constexpr std::int64_t kMostNumber = 1'000'000'000;
+
 /// Empty where a result has none to tell: it was not merged yet, or by a program that gave none.
 std::optional<std::vector<SurveyNumber>> told_numbers(const std::filesystem::path& out) {
   const auto json = read_json_file((out / "survey.json").string());
   if (!json || !json->is_object() || !json->contains("survey_schools")) return std::nullopt;
   std::vector<SurveyNumber> numbers;
+  std::set<std::int64_t> taken;  // a number that stands twice is the first one's
   for (const auto& kept : json->at("survey_schools")) {
+    if (!kept.is_object()) continue;
     const auto whole = [&](const char* member) {
-      const auto found = kept.is_object() ? kept.find(member) : kept.end();
-      return kept.is_object() && found != kept.end() && found->is_number_integer() ? found->get<std::int64_t>() : 0;
+      const auto found = kept.find(member);
+      return found != kept.end() ? whole_number(*found).value_or(0) : 0;
     };
     SurveyNumber number{whole("survey_school"), "", whole("school_id"), whole("first_time_ns"), whole("last_time_ns")};
-    if (kept.is_object() && kept.contains("source") && kept["source"].is_string()) number.source = kept["source"];
-    if (number.number > 0) numbers.push_back(std::move(number));
+    if (kept.contains("source") && kept["source"].is_string()) number.source = kept["source"];
+    if (number.number < 1 || number.number > kMostNumber || !taken.insert(number.number).second) continue;
+    numbers.push_back(std::move(number));
   }
   return numbers;
 }

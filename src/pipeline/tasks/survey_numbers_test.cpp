@@ -3,9 +3,12 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "io/simrad/test_bytes.h"
 
 namespace sonar {
 namespace {
@@ -141,6 +144,20 @@ TEST(SurveyNumbers, AreGivenOnceHoweverObservationsAreCut) {
   const auto again = number_schools(after, kept, true);
   EXPECT_THAT(numbers_in(after), ElementsAre(2, 1, 3));
   EXPECT_EQ(again.size(), 3U);
+}
+
+// Of a survey.json that somebody edited: the number after the highest is one too.
+TEST(SurveyNumbers, AbsurdOnesAreNotKept) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path() / "survey.json")
+      << R"({"survey_schools": [7, {"survey_school": 9223372036854775807}, {"survey_school": 18446744073709551615},
+             {"survey_school": -4}, {"survey_school": 12, "source": "MS70", "school_id": 1},
+             {"survey_school": 12, "source": "MS70", "school_id": 2}]})";
+  const auto kept = kept_numbers(folder.path());
+  ASSERT_EQ(kept.size(), 1U);
+  std::vector<ObservationProduct> products{observation("obs-0001", {{2, 5, 9}})};
+  (void)number_products(products, kept);
+  EXPECT_EQ(products[0].schools[0].survey_school, 13);
 }
 
 }  // namespace

@@ -225,10 +225,10 @@ TraceView CpuRenderer::traced(const VolumeView& view, const DrawQuality& quality
   v.shift = {f(shift.x), f(shift.y)};
   v.divisor = quality.divisor;
   v.step_m = f(quality.step_samples * axes_.spacing_m);
-  v.jitter_frame = quality.jitter_frame;
   v.mode = view.mode;
   v.data = view.masks.data_too;
   v.masked = !masks_.empty();
+  v.samples_frame = moves_samples(v.mode, v.masked) ? quality.jitter_frame : 0;
   v.plain =
       v.mode == RayMode::accumulate && v.data && !v.masked && !view.lighting.on && !view.cue.on() && filled_.complete();
   v.first_hit_count = f(counts_from_db(view.first_hit_db));

@@ -84,7 +84,7 @@ void fill_lane(const TraceView& view, int x, int y, std::size_t lane, Pixels& px
   const float y_px = static_cast<float>(fy) + 0.5F + view.shift[1];
   px.x[lane] = (x_px - 0.5F * static_cast<float>(view.full.width)) * view.pixel_scale;
   px.y[lane] = (0.5F * static_cast<float>(view.full.height) - y_px) * view.pixel_scale;
-  px.phase[lane] = static_cast<float>(sample_phase(fx, fy, view.jitter_frame));
+  px.phase[lane] = static_cast<float>(sample_phase(fx, fy, view.samples_frame));
   px.end_m[lane] = 1e9F;
   if (view.opaque_m != nullptr) {
     px.end_m[lane] = view.opaque_m[static_cast<std::size_t>(fy) * static_cast<std::size_t>(view.full.width) +

@@ -80,7 +80,7 @@ struct TraceView {  // NOLINT(cppcoreguidelines-pro-type-member-init): filled in
   std::array<float, 2> shift;  ///< pixel_shift()
   int divisor;
   float step_m;
-  std::uint32_t jitter_frame;
+  std::uint32_t samples_frame;  ///< of sample_phase()
   RayMode mode;
   bool data, plain, masked;
   float first_hit_count;

@@ -31,7 +31,8 @@ void fill_camera(const RayBlockSource& s, RayBlock& out) {
   out.right = turned(camera.right, middle, camera.tan_half_fov);
   out.up = turned(camera.up, middle, s.quality.step_samples * s.axes.spacing_m);
   out.forward = turned(camera.forward, middle, s.surface_z_m);
-  out.eye = turned(camera.eye, middle, jitter_offset(s.quality.jitter_frame));
+  const bool moves = moves_samples(s.view.mode, s.masked);
+  out.eye = turned(camera.eye, middle, jitter_offset(moves ? s.quality.jitter_frame : 0));
   out.light = turned(light_direction(camera), middle, static_cast<double>(s.view.lighting.full_gradient_db_per_m));
   const Lighting& l = s.view.lighting;
   out.lighting = {l.ambient, l.diffuse, l.specular, f(kDbPerCount)};

@@ -341,6 +341,28 @@ TEST_P(Surfaces, FramesAtRestSmoothEdges) {
   }
 }
 
+/// So it is in noise, where nearly every pixel has an edge.
+TEST_P(Surfaces, FramesAtRestSmoothNoise) {
+  VolumeRenderer& r = *renderer_;
+  const auto volume = scenes::volume(scenes::fan(), 12.0);
+  const Rgba8 black{0, 0, 0, 255};
+  for (const RayMode mode : {RayMode::first_hit, RayMode::maximum}) {
+    VolumeView seen;
+    seen.camera = overview(scenes::fan());
+    seen.size = {96, 72};
+    seen.first_hit_db = -74.0;
+    seen.mode = mode;
+    VolumeView fine = seen;
+    fine.size = {384, 288};
+    const Image truth = over(scenes::reduced(drawn(r, volume, scenes::table(true), fine), 4), black);
+    const Image mean = over(mean_of(r, volume, scenes::table(true), seen, 16), black);
+    EXPECT_GT(psnr_db(mean, truth), 45.0) << static_cast<int>(mode);
+    EXPECT_GT(worst_tile_psnr_db(mean, truth), 35.0) << static_cast<int>(mode);
+    EXPECT_LT(psnr_db(over(drawn(r, volume, scenes::table(true), seen), black), truth), 35.0)
+        << "one ray a pixel is noise";
+  }
+}
+
 /// Both back-ends look for the same light in the same frame.
 TEST_P(Surfaces, AgreesWithTheProcessorFrameByFrame) {
   if (!GetParam()) GTEST_SKIP() << "the processor against itself";

@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "base/units.h"
+#include "model/filtered_ping.h"
 #include "school/detect/detect_params.h"
-#include "school/detect/filtered_ping.h"
 #include "school/evidence/block_means.h"
 #include "school/evidence/null_model.h"
 #include "school/grow/grow.h"

@@ -11,9 +11,9 @@
 #include "base/describe.h"
 #include "base/result.h"
 #include "geo/sector.h"
+#include "model/filtered_ping.h"
 #include "model/mask.h"
 #include "model/transfer_function.h"
-#include "school/detect/filtered_ping.h"
 #include "school/grow/grow.h"
 #include "school/runs.h"
 

@@ -31,11 +31,28 @@ struct VoxelPart {
   double beam = 0.0;  ///< share of the vertical two-way beam that lies in the channel; NaN = unknown
 };
 
+/// Where along a beam's slope depths lie: straight, or bent as levelled() bends places.
+class DepthAlong {
+ public:
+  /// placement  of the ping; its roll and pitch are in the slopes already
+  explicit DepthAlong(const Placement& placement);
+  /// slope, range_m  of the straight path
+  /// out             below the mean water line
+  [[nodiscard]] double depth_m(double slope, double range_m) const;
+  [[nodiscard]] bool bent() const { return ray_.rays != nullptr; }
+  [[nodiscard]] double transducer_depth_m() const { return ray_.transducer_depth_m; }
+  /// Of the places from first to last sample.
+  [[nodiscard]] double deepest_m(const BeamSlope& slope, double farthest_m) const;
+
+ private:
+  Placement ray_;
+};
+
 /// The cells that each voxel of a beam lies in; those of samples that no cell takes are empty.
 class DepthParts {
  public:
   /// channels  of the ping; deeper parts are left out, as is what lies above the first channel
-  DepthParts(const BeamSlope& slope, double transducer_depth_m, const RangeAxis& range, const CellLayout& layout,
+  DepthParts(const BeamSlope& slope, const DepthAlong& along, const RangeAxis& range, const CellLayout& layout,
              int channels);
   [[nodiscard]] std::span<const VoxelPart> of(int sample) const {
     const auto i = static_cast<std::size_t>(sample);

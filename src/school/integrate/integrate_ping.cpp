@@ -21,11 +21,11 @@ double farthest_m(const RangeAxis& range, const CellLayout& layout) {
   return std::min(range.range_m(range.count - 1), layout.max_range_m);
 }
 
-int channels_of(const IntegrationInput& ping, const CellLayout& layout, std::span<const BeamSlope> slopes) {
+int channels_of(const DepthAlong& along, double reach_m, const CellLayout& layout, std::span<const BeamSlope> slopes) {
   double deepest = 0.0;
-  for (const BeamSlope& slope : slopes) {
-    deepest =
-        std::max(deepest, ping.placement.transducer_depth_m + slope.lower * farthest_m(ping.sector->range(), layout));
+  for (std::size_t row = 0; row < slopes.size(); ++row) {
+    if (row > 0 && slopes[row] == slopes[row - 1]) continue;
+    deepest = std::max(deepest, along.deepest_m(slopes[row], reach_m));
   }
   const double channels = std::floor((deepest - layout.depth_from_m) / layout.channel_m) + 1.0;
   return static_cast<int>(std::clamp(channels, 0.0, static_cast<double>(layout.max_channels)));
@@ -130,7 +130,8 @@ PingCells integrate_ping(const IntegrationInput& ping, const CellLayout& layout)
   std::vector<BeamSlope> slopes;
   for (int row = 0; row < rows; ++row) slopes.push_back(beam_slope(sector, *ping.grid, ping.placement, row));
   PingCells out;
-  out.channels = channels_of(ping, layout, slopes);
+  const DepthAlong along(ping.placement);
+  out.channels = channels_of(along, farthest_m(sector.range(), layout), layout, slopes);
   add_areas(sector, layout, first_beyond_near_field(ping.flags, rows), out.area_m2);
   out.cells.resize(out.area_m2.size() * static_cast<std::size_t>(out.channels));
   const auto runs = runs_by_row(ping.schools, rows);
@@ -139,7 +140,7 @@ PingCells integrate_ping(const IntegrationInput& ping, const CellLayout& layout)
   for (int row = 0; row < rows; ++row) {
     const auto at = static_cast<std::size_t>(row);
     if (!parts || slopes[at] != slopes[at - 1]) {
-      parts.emplace(slopes[at], ping.placement.transducer_depth_m, sector.range(), layout, out.channels);
+      parts.emplace(slopes[at], along, sector.range(), layout, out.channels);
     }
     mark_members(runs[at], member);
     const auto counts = ping.sv.row(row);

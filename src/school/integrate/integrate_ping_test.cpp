@@ -7,10 +7,13 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "base/units.h"
+#include "geo/refraction.h"
 #include "school/integrate/depth_parts.h"
 #include "school/measure/fading_field.h"
 #include "school/test_water.h"
@@ -357,6 +360,77 @@ TEST(IntegratePing, the_error_by_fading_holds_where_beams_and_samples_overlap) {
   // Of 80 pings a variance is known to 16 % (one standard error); of 600 it was 1.23: what lies beyond the cell's ends counts
   // in what is told. Without any overlap it would be 0.3, with fans alike 3.6.
   EXPECT_NEAR(told / scatter, 1.23, 0.5);
+}
+
+/// Depth that sound comes from in water whose speed changes evenly with depth, by gradient 1/s, and is kSpeed_mps at the
+/// transducer, where ranges are counted at that speed: the arc of a circle, worked out with this test's own code. Sound
+/// leaves at a dip of sine s; with u = artanh(s) - gradient t its sine is tanh u, and by Snell's law its speed is the first
+/// one times cosh(artanh s) / cosh u.
+constexpr double kSpeed_mps = 1500.0;
+double depth_on_arc(double range_m, double elevation_rad, double gradient) {
+  const double u = std::atanh(-std::sin(elevation_rad));
+  const double then = u - gradient * range_m / kSpeed_mps;
+  const double speed = kSpeed_mps * std::cosh(u) / std::cosh(then);
+  return kTransducer_m + (speed - kSpeed_mps) / gradient;
+}
+
+// A layer from 50 to 58 m in water that gets slower downwards: sound bends by 4 m and more at 250 m. Bent, the layer lies in
+// its channel, is as strong as it is, and little of it is heard beside it; straight paths put it elsewhere.
+TEST(IntegratePing, where_sound_bends_a_layer_lies_in_its_depth_channel) {
+  constexpr double kGradient = -0.25;
+  EXPECT_NEAR(depth_on_arc(250.0, -0.2, kGradient), kTransducer_m + 250.0 * std::sin(0.2), 6.0)
+      << "not far off straight";
+  EXPECT_GT(depth_on_arc(250.0, -0.2, kGradient), kTransducer_m + 250.0 * std::sin(0.2) + 3.0);
+  Scene scene;
+  const double sigma = rad_from_deg(test::kVerticalWidth_deg) / (4.0 * std::sqrt(std::numbers::ln2));
+  scene.fill([&](int fan, int s) {
+    const double r = scene.sector.range().range_m(s);
+    double inside = 0.0;
+    double whole = 0.0;
+    for (int i = -60; i <= 60 && r > 1.0; ++i) {
+      const double off = i * 0.07;
+      const double depth = depth_on_arc(r, scene.sector.elevation_rad(fan) + off * sigma, kGradient);
+      const double weight = std::exp(-0.5 * off * off);
+      whole += weight;
+      if (depth >= 50.0 && depth < 58.0) inside += weight;
+    }
+    return whole > 0.0 ? 1e-5 * inside / whole + 1e-15 : 1e-15;
+  });
+  const SoundProfile profile{{0.0, kSpeed_mps - kGradient * kTransducer_m},
+                             {400.0, kSpeed_mps + kGradient * (400.0 - kTransducer_m)}};
+  CellLayout layout;
+  layout.depth_from_m = 50.0;
+  layout.channel_m = 8.0;
+  layout.max_channels = 1;
+  const auto found_db = [&](bool bent, int bin) {
+    scene.placement.rays =
+        bent ? std::make_shared<const Refraction>(profile, kTransducer_m, kSpeed_mps, 270.0) : nullptr;
+    const PingCells cells = scene.integrated(layout);
+    const CellSums& cell = cells.at(bin, 0);
+    return sv_db(cell) - db_from_linear(cell.beam_m3 / cell.heard_m3);
+  };
+  for (int bin = 2; bin < 5; ++bin) EXPECT_NEAR(found_db(true, bin), -50.0, 0.1) << bin;
+  EXPECT_LT(found_db(false, 4), -50.3) << "straight, what is heard is not where it is looked for";
+}
+
+// Law: rays of a profile that bends nothing change nothing; all water is still there in one that bends.
+TEST(IntegratePing, bending_keeps_the_water) {
+  Scene scene;
+  scene.fill([](int, int) { return 1e-7; });
+  const auto water = [&](const SoundProfile& profile) {
+    scene.placement.rays = profile.empty() ? nullptr : std::make_shared<const Refraction>(profile, 7.0, 1500.0, 270.0);
+    const PingCells cells = scene.integrated({});
+    double sum = 0.0;
+    for (const CellSums& cell : cells.cells) sum += cell.water_m3;
+    return std::pair{sum, cells.at(3, 5).water_m3};
+  };
+  const auto straight = water({});
+  const auto even = water({{0.0, 1500.0}});
+  const auto bent = water({{0.0, 1505.0}, {40.0, 1480.0}, {200.0, 1483.0}});
+  EXPECT_NEAR(even.first / straight.first, 1.0, 1e-4);
+  EXPECT_NEAR(even.second / straight.second, 1.0, 1e-3);
+  // Near the surface more or less of the uppermost fan is in the air.
+  EXPECT_NEAR(bent.first / straight.first, 1.0, 0.03);
 }
 
 TEST(TwoWayShare, is_that_of_a_gaussian_beam) {

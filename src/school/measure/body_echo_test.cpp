@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "school/measure/correct_sizes.h"
 #include "school/measure/measure.h"
 #include "school/test_ping.h"
@@ -70,6 +72,22 @@ TEST(BodyEcho, ALoudNeighboursEdgeIsNotTheSchools) {
   ASSERT_NEAR(alone.height_corrected_m / 14.0, 1.0, 0.15);
   EXPECT_NEAR(beside.height_corrected_m / alone.height_corrected_m, 1.0, 0.2);
   EXPECT_NEAR(beside.volume_corrected_m3 / alone.volume_corrected_m3, 1.0, 0.2);
+}
+
+// As beams hear a seabed below: what is fitted with it is higher than the mask, which the beam has widened.
+TEST(BodyEcho, AHeightAboveTheApparentOneIsAnothersAndNotTold) {
+  const Sector sector = test::grid().sector(test::range_axis());
+  Array3<double> faint(kShape);
+  test::add_ellipsoid(faint, sector, faint_body());
+  test::Ellipsoid below = faint_body();
+  below.centre = Sector::direction(rad_from_deg(-41.0), rad_from_deg(268.0)) * 170.0;
+  below.half_x = below.half_y = 40.0;
+  below.sv = 1e-3;
+  Array3<double> loud(kShape);
+  test::add_ellipsoid(loud, sector, below);
+  const SchoolPingRow row = measured_beside(faint, loud, {});
+  EXPECT_TRUE(std::isnan(row.height_corrected_m)) << row.height_corrected_m << " of " << row.height_m;
+  EXPECT_TRUE(std::isnan(row.sv_corrected_db));
 }
 
 // The background near a school is looked for where a louder one's echo may be.

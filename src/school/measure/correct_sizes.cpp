@@ -23,13 +23,14 @@ constexpr std::int32_t kCutsLevel = kEdgeFore | kEdgeAft | kEdgeNear | kEdgeFar;
 constexpr std::int32_t kCutsHeight = kEdgeTopFan | kEdgeBottomFan | kEdgeNear | kEdgeFar | kEdgeSeabed | kEdgeSurface;
 
 /// Corrected columns; unknown where an extent is cut or not told apart from the beam, and what needs all three with it.
+/// The beam makes a body look higher: one that is told higher than it looks has another's echo in it, a seabed's say.
 void measure_body(const BodySize& body, SchoolPingRow& row) {
   if ((row.edge_flags & kCutsLevel) == 0) {
     row.length_corrected_m = body.length_m;
     row.width_corrected_m = body.width_m;
     row.incidence_deg = body.incidence_deg;
   }
-  if ((row.edge_flags & kCutsHeight) == 0) row.height_corrected_m = body.height_m;
+  if ((row.edge_flags & kCutsHeight) == 0 && body.height_m <= row.height_m) row.height_corrected_m = body.height_m;
   row.volume_corrected_m3 =
       std::numbers::pi / 6.0 * row.length_corrected_m * row.width_corrected_m * row.height_corrected_m;
   const double sv = row.backscatter_m2 / row.volume_corrected_m3;

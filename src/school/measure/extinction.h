@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/array.h"
+#include "model/extinction_params.h"
 #include "model/mask.h"
 #include "model/school.h"
-#include "school/measure/extinction_params.h"
 #include "school/measure/measure_input.h"
 
 namespace sonar {

@@ -15,6 +15,9 @@ namespace {
 constexpr std::array<double, 17> kIntervals = {0.0, 0.3, 0.5,  0.7,  1.0,  1.4,  2.0,  2.8, 4.0,
                                                5.6, 8.0, 11.0, 16.0, 22.0, 32.0, 45.0, 64.0};
 
+/// By how much a longer correlation time must be more likely.
+constexpr double kGain = 1e-6;
+
 struct Centred {
   std::vector<double> t;  ///< less its mean; so x and y
   std::vector<double> x;
@@ -133,7 +136,8 @@ Scatter common_scatter(std::span<const TimedPlaces> pieces) {
     Judged sum;
     for (const Centred& piece : all) judge(piece, correlations(piece.t, intervals * interval), sum);
     // Places that lie on the line to the last digit have no likelihood, and no error.
-    if (intervals > 0.0 && !(sum.likelihood() > best)) continue;
+    // One residual tells of no correlation: likelihoods differ by rounding then, which decides nothing.
+    if (intervals > 0.0 && !(sum.likelihood() > best + kGain)) continue;
     best = sum.likelihood();
     out = {intervals * interval, sum.xx / sum.freedom, sum.xy / sum.freedom, sum.yy / sum.freedom};
   }
@@ -145,6 +149,18 @@ LineFit fit_line(const TimedPlaces& places, const Scatter& scatter) {
   const double variance = slope_variance(in, correlations(in.t, scatter.tau_s));
   return {dot(in.t, in.x) / in.tt, dot(in.t, in.y) / in.tt, scatter.variance_xx * variance,
           scatter.variance_xy * variance, scatter.variance_yy * variance};
+}
+
+double covariance_with_slope(const std::vector<double>& t, double tau_s, std::size_t place) {
+  SONAR_CHECK(place < t.size());
+  const std::vector<double> off = centred(t);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double apart_s = std::abs(t[i] - t[place]);
+    const double alike = i == place ? 1.0 : tau_s > 0.0 ? std::exp(-apart_s / tau_s) : 0.0;
+    sum += off[i] * alike;
+  }
+  return sum / dot(off, off);
 }
 
 LineFit fit_line(const std::vector<double>& t, const std::vector<double>& x, const std::vector<double>& y) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,12 @@ struct LineFit {
 /// places  n >= 2, not all at one time
 /// out     the slope's variance is that of the plain least-squares line under such deviations
 [[nodiscard]] LineFit fit_line(const TimedPlaces& places, const Scatter& scatter);
+
+/// Covariance of one place's deviation with the slope of the plain line, over the deviations' variance, s^-1: both hang on
+/// the same places, and neighbours deviate alike.
+/// t      as of fit_line(); place < n
+/// source the slope is the sum of (t_i - mean) x_i over that of (t_i - mean)^2
+[[nodiscard]] double covariance_with_slope(const std::vector<double>& t, double tau_s, std::size_t place);
 
 /// Of one piece, with the scatter about it; as above.
 [[nodiscard]] LineFit fit_line(const std::vector<double>& t, const std::vector<double>& x,

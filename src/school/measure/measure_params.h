@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/describe.h"
-#include "school/measure/extinction_params.h"
+#include "model/extinction_params.h"
 
 namespace sonar {
 

@@ -31,21 +31,34 @@ std::pair<std::size_t, std::size_t> window_about(const CentreTrack& track, std::
   return {static_cast<std::size_t>(first - t.begin()), static_cast<std::size_t>(last - t.begin())};
 }
 
+using PartOf = TimedPlaces (*)(const CentreTrack& track, std::size_t first, std::size_t last);
+TimedPlaces places_of(const CentreTrack& track, std::size_t first, std::size_t last) { return track.part(first, last); }
+/// Depth in both coordinates.
+TimedPlaces depths_of(const CentreTrack& track, std::size_t first, std::size_t last) {
+  TimedPlaces out = track.part(first, last);
+  out.x.assign(track.depth_m.begin() + static_cast<std::ptrdiff_t>(first),
+               track.depth_m.begin() + static_cast<std::ptrdiff_t>(last));
+  out.y = out.x;
+  return out;
+}
+
 /// Scatter about lines of one window each; empty where none has three places.
-std::optional<Scatter> scatter_of(const CentreTrack& track, double window_s) {
+std::optional<Scatter> scatter_of(const CentreTrack& track, double window_s, PartOf part) {
   std::vector<TimedPlaces> pieces;
   for (const auto& [first, last] : stretches(track, window_s)) {
-    if (track.tells_line(first, last)) pieces.push_back(track.part(first, last));
+    if (track.tells_line(first, last)) pieces.push_back(part(track, first, last));
   }
   return pieces.empty() ? std::nullopt : std::optional(common_scatter(pieces));
 }
 
-/// Of the school's velocity along a horizontal direction of length 1.
-void take_away(const LineFit& line, const Point<Enu>& away, SchoolPingRow& row) {
-  row.speed_away_mps = line.slope_x * away.x + line.slope_y * away.y;
-  const double variance = away.x * away.x * line.variance_xx + 2.0 * away.x * away.y * line.variance_xy +
-                          away.y * away.y * line.variance_yy;
-  row.speed_away_se_mps = std::sqrt(std::max(variance, 0.0));
+/// Variance and covariance as a form of two directions.
+double form(double xx, double xy, double yy, const Point<Enu>& a, const Point<Enu>& b) {
+  return a.x * b.x * xx + (a.x * b.y + a.y * b.x) * xy + a.y * b.y * yy;
+}
+
+/// Standard error of a line's slope along a direction of length 1.
+double error_along(const LineFit& line, const Point<Enu>& away) {
+  return std::sqrt(std::max(form(line.variance_xx, line.variance_xy, line.variance_yy, away, away), 0.0));
 }
 
 /// Distance of a place, seen from the origin, to the line between two others.
@@ -61,14 +74,30 @@ double distance_to(const Point<Enu>& place, const Point<Enu>& from, const Point<
 class Velocities {
  public:
   Velocities(std::span<const SchoolPingRow> rows, const SummariseParams& params, const WaterCurrents* water)
-      : track_(uncut_track(rows)), window_s_(params.movement_window_s), scatter_(scatter_of(track_, window_s_)) {
+      : track_(uncut_track(rows)),
+        window_s_(params.movement_window_s),
+        scatter_(scatter_of(track_, window_s_, places_of)),
+        depth_scatter_(scatter_of(track_, window_s_, depths_of)) {
     if (water != nullptr && track_.size() > 0) water_ = drifted_water(track_, rows, *water);
   }
 
   struct Now {
     LineFit line;
-    double down_mps = 0.0;
+    Scatter scatter;          ///< of places about lines
+    double with_place = 0.0;  ///< covariance of place and velocity, over the scatter
+    LineFit down;             ///< of depth, in x
     std::optional<CurrentAlong> current;
+
+    /// Standard error of what changes so with the school's place and velocity, to first order.
+    [[nodiscard]] double error_of(const Point<Enu>& by_place, const Point<Enu>& by_velocity) const {
+      const auto scattered = [this](const Point<Enu>& a, const Point<Enu>& b) {
+        return form(scatter.variance_xx, scatter.variance_xy, scatter.variance_yy, a, b);
+      };
+      const double velocity = form(line.variance_xx, line.variance_xy, line.variance_yy, by_velocity, by_velocity);
+      const double variance =
+          scattered(by_place, by_place) + velocity + 2.0 * with_place * scattered(by_place, by_velocity);
+      return std::sqrt(std::max(variance, 0.0));
+    }
   };
   /// By place of the track.
   [[nodiscard]] std::optional<Now> at(std::size_t i) const {
@@ -76,10 +105,11 @@ class Velocities {
     const auto [first, last] = window_about(track_, i, window_s_);
     if (!track_.tells_line(first, last)) return std::nullopt;
     const TimedPlaces places = track_.part(first, last);
-    Now now{fit_line(places, *scatter_), 0.0, {}};
-    const std::vector<double> depths(track_.depth_m.begin() + static_cast<std::ptrdiff_t>(first),
-                                     track_.depth_m.begin() + static_cast<std::ptrdiff_t>(last));
-    now.down_mps = fit_line(TimedPlaces{places.t, depths, depths}, Scatter{}).slope_x;
+    Now now{fit_line(places, *scatter_),
+            *scatter_,
+            covariance_with_slope(places.t, scatter_->tau_s, i - first),
+            fit_line(depths_of(track_, first, last), *depth_scatter_),
+            {}};
     if (water_) now.current = water_->along(first, last);
     return now;
   }
@@ -89,6 +119,7 @@ class Velocities {
   CentreTrack track_;
   double window_s_;
   std::optional<Scatter> scatter_;
+  std::optional<Scatter> depth_scatter_;  ///< known where scatter_ is
   std::optional<DriftedWater> water_;
 };
 
@@ -97,11 +128,47 @@ void take_velocity(const Velocities::Now& now, SchoolPingRow& row) {
   row.speed_smoothed_mps = speed.speed_mps;
   row.speed_smoothed_se_mps = speed.speed_se_mps;
   row.course_smoothed_deg = speed.course_deg;
-  row.vertical_speed_smoothed_mps = now.down_mps;
+  row.course_smoothed_se_deg = speed.course_se_deg;
+  row.vertical_speed_smoothed_mps = now.down.slope_x;
+  row.vertical_speed_smoothed_se_mps = std::sqrt(std::max(now.down.variance_xx, 0.0));
   if (!now.current) return;
   const Speed water = speed_through_water(now.line, *now.current);
   row.speed_water_smoothed_mps = water.speed_mps;
   row.course_water_smoothed_deg = water.course_deg;
+  row.speed_water_smoothed_se_mps = water.speed_se_mps;
+  row.course_water_smoothed_se_deg = water.course_se_deg;
+}
+
+/// Of the school's velocity along the horizontal line from the ship.
+/// school  place of its centre from the ship, not 0
+void take_away(const Velocities::Now& now, const Point<Enu>& school, SchoolPingRow& row) {
+  const double distance_m = std::hypot(school.x, school.y);
+  const Point<Enu> away = school * (1.0 / distance_m);
+  row.speed_away_mps = now.line.slope_x * away.x + now.line.slope_y * away.y;
+  row.speed_away_se_mps = error_along(now.line, away);
+  if (now.current) {
+    const LineFit water = through_water(now.line, now.current->drift);
+    row.speed_away_water_mps = water.slope_x * away.x + water.slope_y * away.y;
+    if (std::isfinite(now.current->error_mps)) row.speed_away_water_se_mps = error_along(water, away);
+  }
+  row.course_away_deg = std::abs(wrap_180(row.course_smoothed_deg - deg_from_rad(std::atan2(school.x, school.y))));
+  if (!std::isfinite(row.course_away_deg)) return;
+  // A bearing turns by what a place moves across it, over the distance.
+  const double square = now.line.slope_x * now.line.slope_x + now.line.slope_y * now.line.slope_y;
+  const Point<Enu> by_place{-away.y / distance_m, away.x / distance_m, 0.0};
+  const Point<Enu> by_velocity{now.line.slope_y / square, -now.line.slope_x / square, 0.0};
+  row.course_away_se_deg = deg_from_rad(now.error_of(by_place, by_velocity));
+}
+
+/// How sure an approach is: the school's place and velocity err, the ship's are taken for exact.
+/// school, relative  as of closest_approach()
+void take_approach_errors(const Velocities::Now& now, const ClosestApproach& closest, const Point<Enu>& school,
+                          const Point<Enu>& relative, SchoolPingRow& row) {
+  const double square = dot(relative, relative);
+  row.time_to_cpa_se_s =
+      now.error_of(relative * (-1.0 / square), (school + relative * (2.0 * closest.time_s)) * (-1.0 / square));
+  const Point<Enu> across = Point<Enu>{relative.y, -relative.x, 0.0} * (1.0 / std::sqrt(square));
+  row.cpa_se_m = now.error_of(across, across * closest.time_s);
 }
 
 /// now  null = its velocity is unknown, and it is taken for still: against a ship that sails, it nearly is
@@ -114,20 +181,13 @@ void take_ship(const Velocities::Now* now, const ShipWay& way, SchoolPingRow& ro
   const Point<Enu> school = to_enu({row.latitude, row.longitude}, ship.transducer);
   const double distance_m = std::hypot(school.x, school.y);
   const Point<Enu> own = now != nullptr ? Point<Enu>{now->line.slope_x, now->line.slope_y, 0.0} : Point<Enu>{};
-  if (now != nullptr && distance_m > 0.0) {
-    const Point<Enu> away = school * (1.0 / distance_m);
-    take_away(now->line, away, row);
-    if (now->current) {
-      const LineFit& drift = now->current->drift;
-      row.speed_away_water_mps = row.speed_away_mps - drift.slope_x * away.x - drift.slope_y * away.y;
-    }
-    const double bearing_deg = deg_from_rad(std::atan2(school.x, school.y));
-    row.course_away_deg = std::abs(wrap_180(row.course_smoothed_deg - bearing_deg));
-  }
+  if (now != nullptr && distance_m > 0.0) take_away(*now, school, row);
   if (!std::isfinite(ship.speed_mps) || !std::isfinite(ship.course_deg)) return;
-  if (const auto closest = closest_approach(school, own - velocity(ship.speed_mps, ship.course_deg))) {
+  const Point<Enu> relative = own - velocity(ship.speed_mps, ship.course_deg);
+  if (const auto closest = closest_approach(school, relative)) {
     row.time_to_cpa_s = closest->time_s;
     row.cpa_m = closest->distance_m;
+    if (now != nullptr) take_approach_errors(*now, *closest, school, relative, row);
   }
 }
 

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "base/units.h"
@@ -140,6 +142,156 @@ TEST(Movement, WithoutPositionsNothingIsKnown) {
   EXPECT_TRUE(std::isnan(rows[10].relative_bearing_deg));
   EXPECT_TRUE(std::isnan(rows[10].time_to_cpa_s));
   EXPECT_TRUE(std::isnan(rows[10].wake_distance_m));
+}
+
+/// Three pings of a school at rest 250 m west of the ship's way, whose centre is seen at -247, -250 and -247 m: about its
+/// line, which does not move, it scatters by 1, -2, 1 m, of variance 6 m2 for one degree of freedom. Depths do the same.
+std::vector<SchoolPingRow> wandering(const std::vector<PingNavigation>& ship, double north_m) {
+  auto rows = school(ship, {-248, north_m, 0}, {0, 0, 0});
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double off_m = i == 1 ? -2.0 : 1.0;
+    const Geographic at = to_geographic(Point<Enu>{-248.0 + off_m, north_m, 0.0}, kHere);
+    rows[i].latitude = at.latitude_deg;
+    rows[i].longitude = at.longitude_deg;
+    rows[i].depth_m = 50.0 + off_m;
+  }
+  return rows;
+}
+
+// By hand, deviations that are not alike: the slope's variance is 6 / (25 + 25). At the middle ping, 25 m on, the ship has
+// 100 m to go at 5 m/s: 20 s. The distance across has the variance of the place and 20^2 that of the velocity,
+// 6 (1 + 400 / 50) = 54. The time changes by -2 r / v^2 with the speed across, 250 / 25 = 10 s per m/s: 10^2 x 6 / 50 = 12.
+TEST(MovementErrors, OfAnApproachByHand) {
+  const auto ship = northward(3);
+  auto rows = wandering(ship, 125.0);
+  add_movement(rows, ShipWay(ship), {}, nullptr);
+  EXPECT_NEAR(rows[1].time_to_cpa_s, 20.0, 0.01);
+  EXPECT_NEAR(rows[1].cpa_m, 250.0, 0.1);
+  EXPECT_NEAR(rows[1].cpa_se_m, std::sqrt(54.0), 0.01);
+  EXPECT_NEAR(rows[1].time_to_cpa_se_s, std::sqrt(12.0), 0.01);
+  EXPECT_NEAR(rows[1].vertical_speed_smoothed_se_mps, std::sqrt(6.0 / 50.0), 1e-6);
+  // At the first ping 25 s are to go, and what the place is too far west lets the line seem to go east: a covariance of
+  // -5 / 50 of the variance. 6 (1 + 625 / 50 - 2 x 25 / 10) = 51.
+  EXPECT_NEAR(rows[0].cpa_se_m, std::sqrt(51.0), 0.01);
+  // Past by as much at the last one, which sees it from behind: the same by symmetry.
+  auto behind = wandering(ship, -75.0);
+  add_movement(behind, ShipWay(ship), {}, nullptr);
+  EXPECT_NEAR(behind[2].time_to_cpa_s, -25.0, 0.01);
+  EXPECT_NEAR(behind[2].cpa_se_m, std::sqrt(51.0), 0.01);
+}
+
+TEST(MovementErrors, NothingIsToldOfASchoolThatIsTakenForStill) {
+  const auto ship = northward(3);
+  auto rows = wandering(ship, 125.0);
+  for (auto& row : rows) row.edge_flags = kEdgeFore;
+  add_movement(rows, ShipWay(ship), {}, nullptr);
+  EXPECT_TRUE(std::isfinite(rows[1].cpa_m));
+  EXPECT_TRUE(std::isnan(rows[1].cpa_se_m));
+  EXPECT_TRUE(std::isnan(rows[1].time_to_cpa_se_s));
+  EXPECT_TRUE(std::isnan(rows[1].vertical_speed_smoothed_se_mps));
+}
+
+/// Deviations of variance 1 with correlation exp(-dt / tau), at even steps.
+std::vector<double> alike(std::mt19937& random, int count, double step_s, double tau_s) {
+  std::normal_distribution<double> normal;
+  const double phi = tau_s > 0.0 ? std::exp(-step_s / tau_s) : 0.0;
+  std::vector<double> out{normal(random)};
+  for (int i = 1; i < count; ++i) out.push_back(phi * out.back() + std::sqrt(1.0 - phi * phi) * normal(random));
+  return out;
+}
+
+// Monte Carlo: 20 000 series, each with its own line.
+TEST(MovementErrors, APlaceAndItsLinesSlopeErrTogether) {
+  std::mt19937 random(20260103);
+  const std::vector<double> t{0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0};
+  for (const double tau_s : {0.0, 8.0, 40.0}) {
+    std::vector<double> sum(t.size(), 0.0);
+    constexpr int kSeries = 20'000;
+    for (int k = 0; k < kSeries; ++k) {
+      const auto x = alike(random, 7, 5.0, tau_s);
+      double slope = 0.0;
+      for (std::size_t i = 0; i < t.size(); ++i) slope += (t[i] - 15.0) * x[i] / 700.0;
+      for (std::size_t i = 0; i < t.size(); ++i) sum[i] += slope * x[i] / kSeries;
+    }
+    // The slope's deviation is at most 0.06, so that a mean of 20 000 products has an error of 4e-4 at the most.
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      EXPECT_NEAR(covariance_with_slope(t, tau_s, i), sum[i], 1.5e-3) << tau_s << ' ' << i;
+    }
+  }
+}
+
+// Monte Carlo: a school swims 1.3 m/s south-west and is seen with errors of 4 m north, 2 m east and 1 m down, each ping its
+// own. (Where they are alike for two pings the errors told are a fifth too large, as the scatter is.) The spread over 250 voyages is the error that they tell, to 15 %, in the middle and at an end.
+TEST(MovementErrors, AreTheSpreadOfManyVoyages) {
+  constexpr int kPings = 60;
+  const auto ship = northward(kPings);
+  const ShipWay way(ship);
+  std::mt19937 random(20260104);
+  SummariseParams params;
+  params.movement_window_s = 60.0;
+  constexpr int kVoyages = 250;
+  struct Figure {
+    const char* name;
+    double SchoolPingRow::*value;
+    double SchoolPingRow::*error;
+  };
+  constexpr std::array<Figure, 5> kFigures{
+      {{"time_to_cpa_s", &SchoolPingRow::time_to_cpa_s, &SchoolPingRow::time_to_cpa_se_s},
+       {"cpa_m", &SchoolPingRow::cpa_m, &SchoolPingRow::cpa_se_m},
+       {"vertical", &SchoolPingRow::vertical_speed_smoothed_mps, &SchoolPingRow::vertical_speed_smoothed_se_mps},
+       {"course", &SchoolPingRow::course_smoothed_deg, &SchoolPingRow::course_smoothed_se_deg},
+       {"course away", &SchoolPingRow::course_away_deg, &SchoolPingRow::course_away_se_deg}}};
+  std::array<std::array<double, 3>, 2 * kFigures.size()> sums{};  // of values, squares, variances told
+  std::array<int, 2 * kFigures.size()> counts{};
+  for (int k = 0; k < kVoyages; ++k) {
+    std::array<std::vector<double>, 3> off;
+    for (auto& one : off) one = alike(random, kPings, 5.0, 0.0);
+    std::vector<SchoolPingRow> rows = school(ship, {-200, 500, 0}, {-0.9, -0.9, 0});
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double t = 5.0 * static_cast<double>(i);
+      const Geographic at =
+          to_geographic(Point<Enu>{-200.0 - 0.9 * t + 2.0 * off[0][i], 500.0 - 0.9 * t + 4.0 * off[1][i], 0.0}, kHere);
+      rows[i].latitude = at.latitude_deg;
+      rows[i].longitude = at.longitude_deg;
+      rows[i].depth_m += off[2][i];
+    }
+    add_movement(rows, way, params, nullptr);
+    for (std::size_t f = 0; f < 2 * kFigures.size(); ++f) {
+      const SchoolPingRow& row = rows[f % 2 == 0 ? 30 : 0];
+      const Figure& figure = kFigures[f / 2];
+      const double value = row.*figure.value;
+      const double error = row.*figure.error;
+      if (!std::isfinite(value) || !std::isfinite(error)) continue;
+      ++counts[f];
+      sums[f][0] += value;
+      sums[f][1] += value * value;
+      sums[f][2] += error * error;
+    }
+  }
+  for (std::size_t f = 0; f < 2 * kFigures.size(); ++f) {
+    ASSERT_GT(counts[f], 0.99 * kVoyages) << kFigures[f / 2].name;
+    const double mean = sums[f][0] / counts[f];
+    const double spread = std::sqrt(sums[f][1] / counts[f] - mean * mean);
+    const double told = std::sqrt(sums[f][2] / counts[f]);
+    EXPECT_NEAR(told / spread, 1.0, 0.15) << kFigures[f / 2].name << (f % 2 == 0 ? " in the middle" : " at the end");
+  }
+}
+
+// A carried school: one profile of noise 0.05 m/s each way is all that errs, whatever the direction. By hand.
+TEST(MovementErrors, ThroughTheWaterHaveTheProfilesNoise) {
+  const auto ship = northward(40);
+  auto rows = school(ship, {-200, 250, 0}, {-1, 0, 0});
+  const CurrentProfiles water{{kStart, kHere, {{50, -0.4, 0.1}, {70, -0.4, 0.1}, {90, -0.4, 0.1}}}};
+  const WaterCurrents currents{&water, {}, 0.05};
+  add_movement(rows, ShipWay(ship), {}, &currents);
+  EXPECT_NEAR(rows[10].speed_away_water_mps, 0.6, 1e-3);
+  EXPECT_NEAR(rows[10].speed_away_water_se_mps, 0.05, 1e-4);
+  EXPECT_NEAR(rows[10].speed_water_smoothed_se_mps, 0.05, 1e-4);
+  EXPECT_NEAR(rows[10].course_water_smoothed_se_deg, deg_from_rad(0.05 / std::hypot(0.6, 0.1)), 0.05);
+  EXPECT_LT(rows[10].speed_away_se_mps, 1e-3) << "over ground nothing errs";
+  const WaterCurrents unknown{&water, {}, kUnknown};
+  add_movement(rows, ShipWay(ship), {}, &unknown);
+  EXPECT_NEAR(rows[10].speed_away_water_mps, 0.6, 1e-3);
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "model/fish_lengths.h"
 #include "model/school.h"
-#include "school/strength/fish_lengths.h"
-#include "school/strength/ts_relation.h"
+#include "model/ts_relation.h"
 
 namespace sonar {
 

@@ -147,7 +147,7 @@ LivePicture::Build ChartModel::build(const PictureLook& look) {
   }
   wish.numbers = document.survey_numbers();
   wish.all_measured = document.all_measured();
-  wish.question = {asked_.table, asked_.x, asked_.y, workspace_.display.values().rejected};
+  wish.question = {asked_.table, asked_.x, asked_.y, workspace_.display.values().rejected, look.units};
   wish.style.bins = asked_.bins;
   wish.style.shown = shown_;
   wish.style.brief = true;

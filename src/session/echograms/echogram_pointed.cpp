@@ -228,17 +228,19 @@ std::string EchogramModel::hint(PixelPoint at) const {
   std::string text = fmt::format("{}, ping {}\n{} UTC\n{}", survey.observations[name.observation].name, here->ping,
                                  clock_text(navigation.time, true), echogram_text(survey, name, shown));
   const bool depth = name.of.height == EchogramHeight::depth;
+  const Unit unit = workspace_.units().length();
+  const auto add_place = [&](double range_m, double depth_m) {
+    text += fmt::format("\nrange {}, depth {}", quantity_text(range_m, 1, unit), quantity_text(depth_m, 1, unit));
+  };
   if (name.channel >= 0) {
     const double other_m = here->height_m + (depth ? -1.0 : 1.0) * navigation.transducer_depth_m;
-    text += fmt::format("\nrange {:.1f} m, depth {:.1f} m", depth ? other_m : here->height_m,
-                        depth ? here->height_m : other_m);
+    add_place(depth ? other_m : here->height_m, depth ? here->height_m : other_m);
   } else if (shown && here->ping < shown->pings()) {
     const EchogramRow row = row_of(name, here->ping);
     const double sample = row.step_m == 0.0 ? 0.0 : (here->height_m - row.first_m) / row.step_m;
     EchogramName deep = name;
     deep.of.height = EchogramHeight::depth;
-    text += fmt::format("\nrange {:.1f} m, depth {:.1f} m", shown->sector().range().range_m(sample),
-                        row_of(deep, here->ping).height_m(sample));
+    add_place(shown->sector().range().range_m(sample), row_of(deep, here->ping).height_m(sample));
   }
   const EchogramPyramid* echogram = here->plot->of.echogram.get();
   if (echogram == nullptr || here->ping >= static_cast<std::int64_t>(echogram->pings())) return text;

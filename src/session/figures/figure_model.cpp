@@ -195,7 +195,8 @@ LivePicture::Build FigureModel::build(const PictureLook& look) {
     FigureJob::Panel& panel = job.panels.emplace_back();
     panel.id = names[i].name;
     panel.title = titles[i].title;
-    panel.look = {drawing.size_in(job.layout.panels[i]), drawing.dots_per_inch / 96.0, job.params.dark, drawing.look};
+    panel.look = {drawing.size_in(job.layout.panels[i]), drawing.dots_per_inch / 96.0, job.params.dark, drawing.look,
+                  look.units};
     panel.version = picture.version();
     panel.refines = picture.refines();
     panel.draw = picture.panel(panel.look);

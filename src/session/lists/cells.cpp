@@ -48,7 +48,7 @@ Cell count_cell(std::int64_t count) { return {std::to_string(count), static_cast
 
 Cell number_cell(double value, int decimals) {
   if (std::isnan(value)) return {};
-  return {fmt::format("{:.{}f}", value, decimals), value};
+  return {fmt::format("{:.{}f}", value, decimals), value, {}, decimals};
 }
 
 Cell with_error(Cell cell, double se, int decimals) {
@@ -61,6 +61,13 @@ Cell with_error(Cell cell, double se, int decimals) {
 Cell broad_cell(double value) {
   if (std::isnan(value)) return {};
   return {fmt::format("{:.3g}", value), value};
+}
+
+Cell in_units(Cell cell, std::string_view column_unit, const Units& units) {
+  const Unit unit = shown_unit(column_unit, units);
+  const auto* value = std::get_if<double>(&cell.key);
+  if (value == nullptr || unit.si == 1.0) return cell;
+  return cell.decimals < 0 ? broad_cell(unit.of(*value)) : number_cell(unit.of(*value), cell.decimals);
 }
 
 Cell time_cell(TimeNs time) {

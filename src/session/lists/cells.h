@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "base/time.h"
 #include "session/rows.h"
+#include "view/units.h"
 
 namespace sonar {
 
@@ -17,6 +19,9 @@ namespace sonar {
 [[nodiscard]] Cell with_error(Cell cell, double se, int decimals);
 /// Three significant digits, for quantities that go over many powers of ten.
 [[nodiscard]] Cell broad_cell(double value);
+/// The same cell in the unit that a user reads; what is neither a length nor a speed stays.
+/// column_unit  of the cell's own column, "m"
+[[nodiscard]] Cell in_units(Cell cell, std::string_view column_unit, const Units& units);
 /// "2026-11-21 19:57:26" UTC; 0 = unknown.
 [[nodiscard]] Cell time_cell(TimeNs time);
 /// "19:57:26" where the day is the same, for the second end of a span.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "session/listening.h"
+#include "session/lists/cells.h"
 #include "session/rows.h"
 #include "session/workspace.h"
 
@@ -24,6 +25,7 @@ class DocumentRows : public Rows {
         moved().tell();
     });
     listening_.to(workspace.school.changed(), [this] { school_selected(); });
+    listening_.to(workspace.units.changed(), [this] { refresh(); });
   }
   ~DocumentRows() override = default;
   DocumentRows(const DocumentRows&) = delete;
@@ -53,10 +55,18 @@ struct ColumnOf {
 };
 
 template <class T>
-[[nodiscard]] std::vector<ListColumn> titles_of(const std::vector<ColumnOf<T>>& columns) {
+[[nodiscard]] std::vector<ListColumn> titles_of(const std::vector<ColumnOf<T>>& columns, const Units& units = {}) {
   std::vector<ListColumn> titles;
-  for (const ColumnOf<T>& one : columns) titles.push_back(one.column);
+  for (const ColumnOf<T>& one : columns) {
+    titles.push_back(one.column);
+    titles.back().unit = shown_unit(one.column.unit, units).name;
+  }
   return titles;
+}
+
+template <class T>
+[[nodiscard]] Cell cell_of(const ColumnOf<T>& column, const T& row, const Units& units) {
+  return in_units(column.cell(row), column.column.unit, units);
 }
 
 }  // namespace sonar

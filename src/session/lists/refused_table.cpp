@@ -56,6 +56,7 @@ RefusedTable::RefusedTable(Workspace& workspace)
       listening_(workspace.echo.changed(), [this] { moved().tell(); }) {}
 
 void RefusedTable::make() {
+  titles_ = titles_of(refused_columns(), workspace().units());
   echoes_.clear();
   const Document& document = workspace().document;
   for (const auto& [index, state] : document.choices().states) {
@@ -69,7 +70,7 @@ void RefusedTable::make() {
 }
 
 Cell RefusedTable::cell(std::size_t row, std::size_t column) const {
-  return refused_columns()[column].cell(echoes_[row]);
+  return cell_of(refused_columns()[column], echoes_[row], workspace().units());
 }
 
 void RefusedTable::select(std::size_t row) {

@@ -107,6 +107,7 @@ SchoolPingTable::SchoolPingTable(Workspace& workspace)
     : DocumentRows(workspace, {DocumentChange::survey, DocumentChange::measures}), titles_(titles_of(ping_columns())) {}
 
 void SchoolPingTable::make() {
+  titles_ = titles_of(ping_columns(), workspace().units());
   pings_.clear();
   const auto& wanted = workspace().school();
   for (const auto& [index, state] : workspace().document.choices().states) {
@@ -124,7 +125,7 @@ void SchoolPingTable::show_all(bool all) {
 }
 
 Cell SchoolPingTable::cell(std::size_t row, std::size_t column) const {
-  return ping_columns()[column].cell(pings_[row]);
+  return cell_of(ping_columns()[column], pings_[row], workspace().units());
 }
 
 void SchoolPingTable::select(std::size_t row) {

@@ -117,10 +117,13 @@ SchoolTable::SchoolTable(Workspace& workspace)
       titles_(titles_of(school_columns())),
       listening_(workspace.chosen_schools.changed(), [this] { moved().tell(); }) {}
 
-void SchoolTable::make() { schools_ = survey_schools(workspace().document); }
+void SchoolTable::make() {
+  titles_ = titles_of(school_columns(), workspace().units());
+  schools_ = survey_schools(workspace().document);
+}
 
 Cell SchoolTable::cell(std::size_t row, std::size_t column) const {
-  return school_columns()[column].cell(schools_[row]);
+  return cell_of(school_columns()[column], schools_[row], workspace().units());
 }
 
 void SchoolTable::select(std::size_t row) {

@@ -82,6 +82,10 @@ FishBiomass::FishBiomass(Workspace& workspace, Integration& integration)
     if (change == DocumentChange::survey || change == DocumentChange::measures) again();
   });
   listening_.to(params, [this] { again(); });
+  listening_.to(workspace.units.changed(), [this] {
+    school_rows.show_in(workspace_.units());
+    strata_rows.show_in(workspace_.units());
+  });
   listening_.to(integration.changed(), [this] {
     if (integration_.result() != integrated_) again();
   });
@@ -97,8 +101,13 @@ Result<void> FishBiomass::read_relations(const std::filesystem::path& file) {
   auto table = read_ts_table(file);
   if (!table) return pass_on(table);
   relations_ = std::move(*table);
+  relations_file_ = file;
   spans_.clear();
+  FishParams now = params.values();
+  if (!ts_relation_named(relations_, now.relation)) now.relation = relations_.front().name;
+  params.assign(std::move(now));
   again();
+  changed_.tell();
   return {};
 }
 
@@ -176,7 +185,10 @@ void FishBiomass::compute() {
   Wish wish;
   wish.products = products_of(document);
   integrated_ = integration_.result();
-  if (wish.products.empty()) return put(nullptr, document.survey() == nullptr ? "" : "no schools are measured yet");
+  if (wish.products.empty()) {
+    if (!document.unmeasured().empty()) return put(nullptr, document.unmeasured());
+    return put(nullptr, document.survey() == nullptr ? "" : "no schools are measured yet");
+  }
   sonar_ = sonar_of(wish.products);
   auto fish_chosen = chosen_fish();
   if (!fish_chosen) return put(nullptr, to_line(fish_chosen.error()));
@@ -231,24 +243,32 @@ std::string FishBiomass::relation_text() const {
   return chosen ? ts_text(*chosen) : to_line(chosen.error());
 }
 
-void FishBiomass::select(std::optional<std::size_t> row) {
-  if (selected_ == row) return;
-  selected_ = row;
-  changed_.tell();
+void FishBiomass::select(std::size_t row) {
+  const School clicked = school_of(result_->schools.at(row));
+  if (std::exchange(selected_, clicked) != clicked) changed_.tell();
+}
+
+std::optional<std::size_t> FishBiomass::selected_row() const {
+  if (!result_ || !selected_) return std::nullopt;
+  const auto& rows = result_->schools;
+  const auto found =
+      std::find_if(rows.begin(), rows.end(), [&](const BiomassRow& row) { return school_of(row) == *selected_; });
+  if (found == rows.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - rows.begin());
 }
 
 std::pair<std::string, BandCauses> FishBiomass::causes() const {
   if (!result_) return {};
-  if (!selected_ || *selected_ >= result_->schools.size()) return {"All schools that were seen", result_->causes};
-  const BiomassRow& row = result_->schools[*selected_];
-  return {fmt::format("School {} of {}", row.school_id, row.observation), result_->school_causes[*selected_]};
+  const auto at = selected_row();
+  if (!at) return {"All schools that were seen", result_->causes};
+  return {fmt::format("School {} of {}", selected_->school_id, selected_->observation), result_->school_causes[*at]};
 }
 
 void FishBiomass::put(std::shared_ptr<const Biomass> result, std::string told) {
   ++wishes_;  // what is on its way is of choices before
   result_ = std::move(result);
   told_ = std::move(told);
-  if (!result_ || (selected_ && *selected_ >= result_->schools.size())) selected_.reset();
+  if (!selected_row()) selected_.reset();
   school_rows.set(result_ ? result_->schools : std::vector<BiomassRow>{});
   strata_rows.set(result_ ? result_->strata : std::vector<BiomassStratumRow>{});
   changed_.tell();

@@ -12,6 +12,8 @@
 
 #include "base/result.h"
 #include "base/task_thread.h"
+#include "model/fish_lengths.h"
+#include "model/ts_relation.h"
 #include "pipeline/biomass/biomass.h"
 #include "session/listening.h"
 #include "session/live_picture.h"
@@ -36,12 +38,16 @@ class FishBiomass {
 
   /// Somebody looks: schools of all observations are measured, and figures follow from now on.
   void begin();
+  /// Nobody looks any more: figures stay as they are until begin().
+  void end() { begun_ = false; }
 
   /// Relations to choose from.
   [[nodiscard]] const std::vector<TsRelation>& relations() const { return relations_; }
-  /// As `sonarx biomass --ts-table` has it; empty = those that come with the program.
+  /// As `sonarx biomass --ts-table` has it; empty = those that come with the program. Where the chosen relation is not among
+  /// them, the first is chosen.
   /// errors  as read_ts_table(): what was there stays
   Result<void> read_relations(const std::filesystem::path& file);
+  [[nodiscard]] const std::filesystem::path& relations_file() const { return relations_file_; }
   /// Whether the band spans a relation. At first those that could be meant, see ts_choices().
   [[nodiscard]] bool spans(const std::string& relation) const;
   void set_spans(const std::string& relation, bool on);
@@ -75,7 +81,7 @@ class FishBiomass {
  private:
   void again();
   void compute();
-  void select(std::optional<std::size_t> row);
+  void select(std::size_t row);
   [[nodiscard]] Result<FishChoice> chosen_fish() const;
   void put(std::shared_ptr<const Biomass> result, std::string told);
   [[nodiscard]] std::string notes_of(const Biomass& done, std::size_t unmeasured) const;
@@ -84,6 +90,7 @@ class FishBiomass {
   Integration& integration_;
   bool begun_ = false;
   std::vector<TsRelation> relations_;
+  std::filesystem::path relations_file_;
   std::map<std::string, bool> spans_;  ///< by a human's hand; others are as ts_choices() has them
   std::optional<FishLengths> lengths_;
   std::filesystem::path lengths_file_;
@@ -93,7 +100,15 @@ class FishBiomass {
   std::shared_ptr<const Integrated> integrated_;
   std::shared_ptr<const Biomass> result_;
   std::string told_;
-  std::optional<std::size_t> selected_;
+  /// A school, whatever row it stands in.
+  struct School {
+    std::string observation;
+    std::int64_t school_id = 0;
+    friend bool operator==(const School&, const School&) = default;
+  };
+  [[nodiscard]] static School school_of(const BiomassRow& row) { return {row.observation, row.school_id}; }
+  [[nodiscard]] std::optional<std::size_t> selected_row() const;
+  std::optional<School> selected_;
   std::int64_t wishes_ = 0;  ///< the last wish wins
   Listeners<> changed_;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< changes that come after the end are dropped

@@ -63,6 +63,11 @@ Integration::Integration(Workspace& workspace)
       workspace_(workspace) {
   listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
   listening_.to(workspace.transects.changed(), [this] { changed_.tell(); });
+  listening_.to(workspace.units.changed(), [this] {
+    effort_rows.show_in(workspace_.units());
+    nasc_rows.show_in(workspace_.units());
+    strata_rows.show_in(workspace_.units());
+  });
 }
 
 Integration::~Integration() {
@@ -161,9 +166,15 @@ void Integration::hear(DocumentChange change) {
     return put(nullptr);
   }
   const bool further = change == DocumentChange::measures || change == DocumentChange::progress;
-  if (further && waiting_ && measured()) {
+  if (!further || !waiting_) return;
+  const Document& document = workspace_.document;
+  if (measured()) {
     begin();
     changed_.tell();
+  } else if (!document.unmeasured().empty() && !document.measuring()) {
+    waiting_ = false;
+    progress_ = {};
+    tell(document.unmeasured());
   }
 }
 

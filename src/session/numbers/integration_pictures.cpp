@@ -74,8 +74,9 @@ std::string EffortPicture::hint(PixelPoint at) const {
   const auto* cell = chart_->cell(at);
   if (kind_ == Kind::section && cell == nullptr) return text;
   if (cell != nullptr) {
-    return text + fmt::format("\n{:g} to {:g} m: Sv {:.1f} dB re 1 m\u207B\u00B9", cell->depth_from_m, cell->depth_to_m,
-                              cell->sv_db);
+    const Unit length = workspace_.units().length();
+    return text + fmt::format("\n{:g} to {}: Sv {:.1f} dB re 1 m\u207B\u00B9", rounded(cell->depth_from_m, length),
+                              round_text(cell->depth_to_m, length), cell->sv_db);
   }
   text += fmt::format("\nNASC {:.4g} m\u00B2 nmi\u207B\u00B2", unit.nasc_m2_nmi2);
   if (std::isfinite(unit.nasc_se_m2_nmi2)) text += fmt::format(", standard error {:.2g}", unit.nasc_se_m2_nmi2);

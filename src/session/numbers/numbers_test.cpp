@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -116,6 +117,94 @@ TEST_F(Numbers, FishFollowEachChoice) {
   fish().settle();
   EXPECT_EQ(fish().result(), nullptr);
   EXPECT_THAT(fish().told(), HasSubstr("open a table of lengths"));
+}
+
+TEST_F(Numbers, WhatCannotBeMeasuredIsToldAndNobodyWaitsForIt) {
+  paint(2, 4, 5, 5, 200);
+  document().settle();
+  ASSERT_TRUE(document().product(0));
+  EXPECT_EQ(document().unmeasured(), "");
+  document().use_memory(1'000'000);  // no ping fits
+  paint(6, 7, 5, 5, 200);
+  document().settle();
+  ASSERT_EQ(document().state(0).schools.size(), 2U);
+  EXPECT_FALSE(document().product(0));
+  EXPECT_THAT(document().unmeasured(), HasSubstr("obs-0001: a ping of "));
+  EXPECT_THAT(document().notices(), testing::Contains(document().unmeasured()));
+  ASSERT_TRUE(integration().start());
+  EXPECT_TRUE(integration().running()) << "it is tried once more";
+  integration().settle();
+  EXPECT_FALSE(integration().running());
+  EXPECT_EQ(integration().told(), document().unmeasured());
+  EXPECT_EQ(integration().progress().stage, "");
+  document().use_memory(usual_memory());
+  document().open_all();
+  document().settle();
+  EXPECT_TRUE(document().product(0));
+  EXPECT_EQ(document().unmeasured(), "");
+}
+
+TEST_F(Numbers, TheClickedSchoolStaysWhateverRowItStandsIn) {
+  document().detect({0, 1});
+  document().settle();
+  fish().begin();
+  fish().settle();
+  ASSERT_TRUE(fish().result()) << fish().told();
+  const auto rows = fish().result()->schools;
+  ASSERT_GE(rows.size(), 2U);
+  fish().school_rows.select(1);
+  const auto clicked = fish().causes();
+  EXPECT_EQ(clicked.first, fmt::format("School {} of {}", rows[1].school_id, rows[1].observation));
+  select(rows[0].school_id);
+  ASSERT_EQ(rows[0].observation, document().shown()->name());
+  press("review.reject");
+  fish().settle();
+  ASSERT_EQ(fish().result()->schools.size(), rows.size() - 1) << "the row above it is gone";
+  EXPECT_EQ(fish().causes().first, clicked.first);
+  EXPECT_EQ(fish().causes().second.fading.up_db, clicked.second.fading.up_db);
+}
+
+TEST_F(Numbers, FiguresRestWhileNobodyLooks) {
+  document().detect({0});
+  document().settle();
+  fish().begin();
+  fish().settle();
+  const auto before = fish().result();
+  ASSERT_TRUE(before);
+  fish().end();
+  FishParams params = fish().params.values();
+  params.mean_length_cm += 10.0;
+  fish().params.assign(params);
+  fish().settle();
+  EXPECT_EQ(fish().result(), before);
+  fish().begin();
+  fish().settle();
+  EXPECT_NE(fish().result(), before);
+}
+
+// 10 dB above the program's -90.3 dB of mackerel: a tenth of the fish make the same echo.
+TEST_F(Numbers, RelationsOfATableTakeThePlaceOfThePrograms) {
+  document().detect({0});
+  document().settle();
+  fish().begin();
+  FishParams params = fish().params.values();
+  params.relation = "mackerel";
+  fish().params.assign(params);
+  fish().settle();
+  ASSERT_TRUE(fish().result()) << fish().told();
+  const double before = fish().result()->strata.back().numbers_seen;
+  const fs::path table = TestSurvey::easy().fresh() / "ts.csv";
+  std::ofstream(table) << "name,species,frequency_from_khz,frequency_to_khz,aspect,m_db,b_db,d_db,line_share,"
+                          "any_aspect_share,heading_sd_deg,tilt_sd_deg,recalled,source\n"
+                          "louder,mackerel,38,38,dorsal,20,-80.3,0,,,,,no,by hand\n";
+  ASSERT_TRUE(fish().read_relations(table));
+  EXPECT_EQ(fish().params.values().relation, "louder") << "the one chosen before is not among them";
+  fish().settle();
+  ASSERT_TRUE(fish().result()) << fish().told();
+  EXPECT_NEAR(fish().result()->strata.back().numbers_seen / before, 0.1, 1e-9);
+  std::ofstream(table) << "nonsense\n";
+  EXPECT_FALSE(fish().read_relations(table));
+  EXPECT_EQ(fish().relations().size(), 1U);
 }
 
 TEST_F(Numbers, TheChartOfSchoolsShowsSvOverIncidence) {

@@ -58,7 +58,7 @@ class ListCell {
   Cell cell_;
 };
 
-/// Rows of a described table in a list, as its CSV has them.
+/// Rows of a described table in a list, as its CSV has them, but for the units that are read.
 /// threads  the window's
 template <class Row>
 class TableRows : public Rows {
@@ -68,7 +68,13 @@ class TableRows : public Rows {
     ColumnLister lister;
     Row blank;
     sonar::columns(lister, blank);
-    columns_ = lister.take();
+    columns_ = as_told_ = lister.take();
+  }
+  /// Lengths and speeds, and their titles.
+  void show_in(const Units& units) {
+    units_ = units;
+    for (std::size_t c = 0; c < columns_.size(); ++c) columns_[c].unit = shown_unit(as_told_[c].unit, units).name;
+    changed().tell();
   }
   void set(std::vector<Row> rows) {
     rows_ = std::move(rows);
@@ -80,7 +86,7 @@ class TableRows : public Rows {
     ListCell cell(column);
     Row copy = rows_.at(row);
     sonar::columns(cell, copy);
-    return cell.take();
+    return in_units(cell.take(), as_told_[column].unit, units_);
   }
   void select(std::size_t row) override {
     if (selected_ && row < rows_.size()) selected_(row);
@@ -88,6 +94,8 @@ class TableRows : public Rows {
 
  private:
   std::vector<ListColumn> columns_;
+  std::vector<ListColumn> as_told_;  ///< in the units of the table
+  Units units_;
   std::vector<Row> rows_;
   std::function<void(std::size_t)> selected_;
 };

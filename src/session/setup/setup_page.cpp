@@ -61,6 +61,7 @@ void SetupPage::take(const std::shared_ptr<const void>& detail) {
 std::string SetupPage::told() const {
   const Document& document = app_.workspace.document;
   if (document.survey() == nullptr) return "no survey is open";
+  if (!document.unmeasured().empty() && !document.measuring()) return document.unmeasured();
   if (!document.all_measured() || document.measuring()) return "schools are still being measured...";
   if (!document.results().empty()) return "the raw files are not here: their recipe cannot be changed";
   return {};
@@ -91,7 +92,7 @@ Result<void> SetupPage::use(bool mounting_angle, bool sound_speed) {
 std::string SetupPage::hint(PixelPoint at) const {
   if (!sight_) return {};
   const auto leg = sight_->chart.leg_at(sight_->data, at);
-  return leg ? leg_text(sight_->data.legs[*leg]) : std::string();
+  return leg ? leg_text(sight_->data.legs[*leg], app_.workspace.units()) : std::string();
 }
 
 }  // namespace sonar

@@ -17,16 +17,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kTables = "Calibrations (*.csv *.CSV);;All files (*)";
-static_assert(kSphereSolidNames.size() == kSphereMaterials.size());
+static_assert(kSphereSolidNames.size() == kSphereMaterialCount);
 
 /// "WC38.1" as it is typed into the fields; `own` leaves them.
 SphereAsked with_preset(SphereAsked asked) {
-  const auto sphere = named_sphere(kSpherePresetNames[static_cast<std::size_t>(asked.sphere)]);
+  const auto sphere = sphere_size(kSpherePresetNames[static_cast<std::size_t>(asked.sphere)]);
   if (!sphere) return asked;
-  for (std::size_t i = 0; i < kSphereMaterials.size(); ++i) {
-    if (kSphereMaterials[i].name == sphere->material.name) asked.material = static_cast<SphereSolid>(i);
-  }
-  asked.diameter_mm = sphere->diameter_m * 1e3;
+  asked.material = static_cast<SphereSolid>(sphere->material);
+  asked.diameter_mm = sphere->diameter_mm;
   return asked;
 }
 
@@ -59,9 +57,7 @@ void SpherePage::follow_preset() {
 }
 
 std::string SpherePage::material_text() const {
-  const SphereMaterial& m = kSphereMaterials[static_cast<std::size_t>(asked_.values().material)];
-  return fmt::format("{}: {} kg/m\u00B3, {} and {} m/s ({})", m.text, m.density_kg_per_m3, m.longitudinal_mps,
-                     m.transverse_mps, m.source);
+  return sonar::material_text(static_cast<std::size_t>(asked_.values().material));
 }
 
 void SpherePage::choose_sphere_run() {
@@ -74,9 +70,8 @@ void SpherePage::choose_sphere_run() {
 
 SphereChoice SpherePage::choice() const {
   const SphereAsked& asked = asked_.values();
-  SphereChoice out{
-      fmt::format("{}{}", kSphereMaterials[static_cast<std::size_t>(asked.material)].name, asked.diameter_mm),
-      asked.range_from_m, asked.range_to_m};
+  SphereChoice out{sphere_name({static_cast<std::size_t>(asked.material), asked.diameter_mm}), asked.range_from_m,
+                   asked.range_to_m};
   if (!asked.measured_water) return out;
   out.water = app_.workspace.document.recipe().calibration.water;
   out.water->temperature_c = asked.temperature_c;
@@ -122,9 +117,7 @@ void SpherePage::end(Result<std::shared_ptr<const SphereMade>> made) {
   if (!made) return tell(to_line(made.error()));
   made_ = std::move(*made);
   beam_.reset();
-  const SphereCalibration& c = made_->calibration;
-  tell(fmt::format("{} of {} beams crossed; residuals {:.3f} dB, of which the form of the pattern {:.3f} dB",
-                   c.crossed(), c.beams.size(), c.fit.residual_rms_db, c.fit.form_se_db));
+  tell(crossed_text(made_->calibration));
   update();
 }
 
@@ -162,7 +155,7 @@ void SpherePage::use() {
   if (!usable()) return;
   Document& document = app_.workspace.document;
   document.act(CalibrateCommand{taken_calibration(made_->calibration, document.recipe().calibration),
-                                fmt::format("of the sphere {:.1f} mm", made_->params.sphere.diameter_m * 1e3)});
+                                fmt::format("of the sphere {:.1f} mm", made_->params.diameter_mm())});
   tell("the open survey is measured with this calibration; undo takes it back");
 }
 
@@ -170,7 +163,9 @@ LivePicture::Build SpherePage::build(const PictureLook& look) {
   if (!made_) return {};
   return [made = made_, style = SphereChartStyle{look_.values(), beam_}, look](PixelSize size, const CancelToken&,
                                                                                const Show& show) -> Result<void> {
-    auto chart = sphere_chart(made->chart, style, size, dock_theme(size, look));
+    SphereChartData data = made->chart;
+    data.words = sphere_words(made->calibration, look.units);
+    auto chart = sphere_chart(data, style, size, dock_theme(size, look));
     if (!chart) return pass_on(chart);
     auto sight = std::make_shared<const SphereChart>(std::move(*chart));
     show({sight->frame, std::nullopt, sight});

@@ -19,7 +19,7 @@ namespace sonar {
 enum class SpherePreset : std::uint8_t { own, wc38_1, wc25, wc22, wc20, cu60, cu32_1, cu23, cu13_7 };
 inline constexpr std::array<std::string_view, 9> kSpherePresetNames{"own",  "WC38.1", "WC25", "WC22",  "WC20",
                                                                     "Cu60", "Cu32.1", "Cu23", "Cu13.7"};
-/// In the order of kSphereMaterials.
+/// In the order of material_text().
 enum class SphereSolid : std::uint8_t { tungsten_carbide, copper };
 inline constexpr std::array<std::string_view, 2> kSphereSolidNames{"tungsten_carbide", "copper"};
 

@@ -8,11 +8,6 @@
 namespace sonar {
 namespace {
 
-MaskLayer layer_of(std::shared_ptr<const PingMask> mask, Rgba8 colour, OutlineLine line = OutlineLine::solid) {
-  const auto share = [](std::uint8_t v) { return static_cast<float>(v) / 255.0F; };
-  return {std::move(mask), {share(colour.r), share(colour.g), share(colour.b)}, line};
-}
-
 /// The colour of what a propagation carries: the selected school's, else the one that the next school will have.
 Rgba8 carried_colour(const Workspace& workspace, const Theme& theme) {
   const JournalState& state = workspace.document.state();
@@ -30,6 +25,11 @@ Rgba8 drawn_colour(const StateSchool& school, const Theme& theme) {
 
 Rgba8 preview_colour() { return {0, 240, 240, 255}; }
 
+MaskLayer mask_layer(std::shared_ptr<const PingMask> mask, Rgba8 colour, const std::string& status) {
+  const auto share = [](std::uint8_t v) { return static_cast<float>(v) / 255.0F; };
+  return {std::move(mask), {share(colour.r), share(colour.g), share(colour.b)}, status_line(status)};
+}
+
 std::vector<SchoolLayer> school_layers(const Workspace& workspace, std::int64_t ping_index, const Theme& theme) {
   std::vector<SchoolLayer> layers;
   const DisplayParams& display = workspace.display.values();
@@ -46,16 +46,16 @@ std::vector<SchoolLayer> school_layers(const Workspace& workspace, std::int64_t 
     if (there == nullptr || replaced || (rejected && !display.rejected)) continue;
     // The mask lives in the school, which the layer keeps.
     layers.push_back({school->number, i == selected,
-                      layer_of(std::shared_ptr<const PingMask>(school, &there->mask), drawn_colour(*school, theme),
-                               status_line(school->masks.decided.status)),
+                      mask_layer(std::shared_ptr<const PingMask>(school, &there->mask), drawn_colour(*school, theme),
+                                 school->masks.decided.status),
                       school_title(*school)});
   }
   if (const auto found = document.propagating().find(ping_index);
       found != document.propagating().end() && display.masks) {
     layers.push_back(
-        {0, false, layer_of(std::make_shared<const PingMask>(found->second), carried_colour(workspace, theme))});
+        {0, false, mask_layer(std::make_shared<const PingMask>(found->second), carried_colour(workspace, theme), {})});
   }
-  if (previewed) layers.push_back({0, false, layer_of(preview.mask, preview_colour())});
+  if (previewed) layers.push_back({0, false, mask_layer(preview.mask, preview_colour(), {})});
   return layers;
 }
 

@@ -24,6 +24,9 @@ struct SchoolLayer {
   std::string title = {};  ///< "school 3 (north wall)"
 };
 
+/// A mask in a colour, its outline drawn as that of schools of this status.
+[[nodiscard]] MaskLayer mask_layer(std::shared_ptr<const PingMask> mask, Rgba8 colour, const std::string& status);
+
 /// What lies over a ping of the observation on show: its schools, what a running propagation has reached, and what would
 /// be selected, the last on top. Nothing where masks are switched off, but what would be selected.
 [[nodiscard]] std::vector<SchoolLayer> school_layers(const Workspace& workspace, std::int64_t ping_index,

@@ -108,8 +108,8 @@ Result<SlicePicture> slice_of(const SliceWish& wish, PixelSize size) {
   }
   data.refused = wish.refused;
   if (wish.display.shadow) {
-    data.shadow_from =
-        shadow_of_schools(*wish.ping, wish.observation->sector(), whole, wish.observation->recipe(), wish.display);
+    data.shadow_from = shadow_of_schools(*wish.ping, wish.observation->sector(), whole,
+                                         wish.observation->recipe().measure.extinction, wish.display);
   }
   SliceStyle style = slice_style(wish.display, *wish.colours);
   style.north_up = wish.north_up;

@@ -106,6 +106,17 @@ TEST_F(SlicesAtWork, TheReadOutTellsTheShipsSpeedInKnotsAndItsLogInNauticalMiles
   EXPECT_THAT(text.line(), testing::HasSubstr(text.ship + ", " + text.log));
 }
 
+TEST_F(SlicesAtWork, AreReadInTheUnitsThatAreChosenAtOnce) {
+  const auto labels = [&] {
+    return std::pair(app_.top().picture()->plot.y.label, app_.side().picture()->plot.y.label);
+  };
+  EXPECT_EQ(labels(), std::pair(std::string("ahead (m)"), std::string("depth (m)")));
+  ASSERT_TRUE(workspace().window.set("length_unit", Choice{static_cast<std::size_t>(LengthUnit::fathoms)}));
+  app_.settle();
+  EXPECT_EQ(labels(), std::pair(std::string("ahead (fm)"), std::string("depth (fm)")));
+  EXPECT_THAT(read_out(workspace(), bright()).depth, testing::EndsWith(" fm"));
+}
+
 TEST_F(SlicesAtWork, TitlesSayThatTheDataIsSimulated) {
   for (SliceModel* slice : {&app_.top(), &app_.side()}) {
     const auto& items = slice->picture()->frame.items;

@@ -51,7 +51,8 @@ void copy_read_out(AppModel& app) {
 
 void copy_figures(AppModel& app) {
   const auto& measured = app.workspace.measurement();
-  if (measured && on_show(app.workspace, *measured) && app.dialogs.copy) app.dialogs.copy(table_text(*measured));
+  if (measured && on_show(app.workspace, *measured) && app.dialogs.copy)
+    app.dialogs.copy(table_text(*measured, app.workspace.units()));
 }
 
 void add_measuring(AppModel& app) {
@@ -76,6 +77,7 @@ void add_measuring(AppModel& app) {
 /// The drag, else what runs or waits for a click, else the selection: one key must not be two actions'.
 void let_go(AppModel& app) {
   if (app.brush_tool->drawing()) return app.brush_tool->cancel();
+  if (std::ranges::any_of(app.pictures, [](const PictureDock& dock) { return dock.picture->cancel_drag(); })) return;
   if (app.workspace.tool() == ToolName::section) return app.workspace.tool.set(ToolName::seed);
   const bool measuring = app.workspace.tool() == ToolName::measure && app.workspace.measurement();
   if (app.measure_tool->drawing() || measuring) return app.measure_tool->cancel();

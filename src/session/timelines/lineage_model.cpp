@@ -206,6 +206,14 @@ void LineageModel::release(PixelPoint at) {
   drop_free(*held);
 }
 
+bool LineageModel::cancel_drag() {
+  if (!held_) return false;
+  held_.reset();
+  scrubbing_ = false;
+  changed().tell();
+  return true;
+}
+
 std::optional<MarkedInterval> LineageModel::interval_of(const Held& held) const {
   const auto& marked = workspace_.marked_interval();
   const bool in_it = marked && current() != nullptr && marked->observation == current()->observation &&

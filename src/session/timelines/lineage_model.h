@@ -41,6 +41,7 @@ class LineageModel : public LivePicture {
   explicit LineageModel(Workspace& workspace);
 
   void pointer(const PointerEvent& event) override;
+  bool cancel_drag() override;
   [[nodiscard]] bool pans() const override { return true; }
   bool aim(PixelPoint at) override;
   [[nodiscard]] std::vector<Overlay> overlays() const override;

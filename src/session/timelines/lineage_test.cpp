@@ -156,6 +156,33 @@ TEST_F(LineageAtWork, NothingHappensOutsideOrOnItsOwnLane) {
   EXPECT_EQ(document().choices().lines->size(), lines) << "the last began where the school is not seen";
 }
 
+TEST_F(LineageAtWork, EscapeEndsADragThatThenDoesNothing) {
+  const auto lines = document().choices().lines->size();
+  const auto pointer = [&](PointerAction action, PointerButton button, PixelPoint place) {
+    model().pointer({.action = action, .button = button, .at = place});
+  };
+  for (const PixelPoint to : {at(2, 5), free_lane(5), at(1, 7)}) {
+    pointer(PointerAction::press, PointerButton::left, at(1, 5));
+    pointer(PointerAction::move, PointerButton::left, to);
+    const std::size_t drawn = model().overlays().size();
+    press("tool.cancel");
+    EXPECT_TRUE(workspace().school()) << "Escape ended the drag, not the selection";
+    EXPECT_LE(model().overlays().size(), drawn);
+    pointer(PointerAction::move, PointerButton::left, to);
+    const std::int64_t ping = document().ping();
+    pointer(PointerAction::move, PointerButton::left, at(2, 2));
+    EXPECT_EQ(document().ping(), ping) << "nothing follows the pointer any more";
+    pointer(PointerAction::release, PointerButton::left, at(2, 2));
+    settle();
+  }
+  EXPECT_EQ(document().choices().lines->size(), lines);
+  EXPECT_EQ(tracks(), "1:2-8(7) 2:1-6(6) ");
+  press("tool.cancel");
+  EXPECT_FALSE(workspace().school()) << "without a drag it selects nothing";
+  drag(at(1, 5), at(2, 5));
+  EXPECT_EQ(tracks(), "2:1-8(8) ") << "the next drag is a drag again";
+}
+
 TEST_F(LineageAtWork, TheSameJournalGivesTheSameTracks) {
   drag(at(1, 5), free_lane(5));
   drag(at(2, 2), at(2, 3), true);

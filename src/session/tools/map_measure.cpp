@@ -57,7 +57,7 @@ std::vector<Overlay> MapMeasure::overlays(const MapFrame& map) const {
   const auto from = map.at(*measured->ends->front().where);
   const auto to = map.at(*measured->ends->back().where);
   if (!from || !to) return {};
-  return measured_overlays(*measured, {*from, *to}, map.place);
+  return measured_overlays(*measured, {*from, *to}, map.place, workspace_.units());
 }
 
 }  // namespace sonar

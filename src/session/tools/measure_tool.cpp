@@ -42,7 +42,7 @@ bool on_show(const Workspace& workspace, const Measurement& measured) {
 
 std::string measured_text(const Workspace& workspace) {
   const auto& measured = workspace.measurement();
-  return measured && on_show(workspace, *measured) ? whole_text(*measured) : std::string{};
+  return measured && on_show(workspace, *measured) ? whole_text(*measured, workspace.units()) : std::string{};
 }
 
 MeasuredEnd end_at(const Workspace& workspace, const Point<Sonar>& place, std::optional<Voxel> voxel) {
@@ -142,7 +142,7 @@ void hover_voxel(Workspace& workspace, const Voxel& voxel) {
 }
 
 std::vector<Overlay> measured_overlays(const Measurement& measured, const std::vector<PixelPoint>& at,
-                                       const PixelRect& plot) {
+                                       const PixelRect& plot, const Units& units) {
   if (at.empty()) return {};
   const bool line = measured.shape == Shape::line;
   PixelPoint low = at.front();
@@ -158,7 +158,7 @@ std::vector<Overlay> measured_overlays(const Measurement& measured, const std::v
   if (!line) over.front().line.push_back(at.front());
   over.front().dashed = !line;
   over.front().clip = plot;
-  over.front().text = brief_text(measured);
+  over.front().text = brief_text(measured, units);
   over.front().beside = {low.x, low.y, high.x - low.x, high.y - low.y};
   for (std::size_t i = 0; line && i < at.size(); ++i) {
     Overlay cross;

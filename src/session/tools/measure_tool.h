@@ -55,6 +55,6 @@ inline constexpr double kMeasureBegins_px = 3.0;
 /// The line, or the dashed outline, of what was measured, with its figures beside it; in a picture's pixels.
 /// plot  what it is drawn in and must not leave
 [[nodiscard]] std::vector<Overlay> measured_overlays(const Measurement& measured, const std::vector<PixelPoint>& at,
-                                                     const PixelRect& plot);
+                                                     const PixelRect& plot, const Units& units);
 
 }  // namespace sonar

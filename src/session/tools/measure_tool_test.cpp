@@ -49,7 +49,6 @@ class MeasureAtWork : public testing::Test {
   template <class Within>
   void expect_sums(SliceModel& slice, Within within, bool all_fans = false) {
     const StagedPing& ping = *document().staged();
-    const Background background = ping.background();
     std::int64_t voxels = 0;
     std::int64_t never = 0;
     std::int64_t faulty = 0;
@@ -81,7 +80,12 @@ class MeasureAtWork : public testing::Test {
             ++faulty;
             continue;
           }
-          const double noise = RowBackground(background, row)(s);
+          // The noise of a beam is told as power; what makes power Sv makes it Sv too.
+          const double noise_db =
+              ping.background_db.empty() ? kUnknown : ping.background_db[static_cast<std::size_t>(row)];
+          const double noise = std::isnan(noise_db)
+                                   ? 0.0
+                                   : std::pow(10.0, (noise_db + (*ping.calibration)(f, b, s) * kDbPerCount) / 10.0);
           const double sv = std::pow(10.0, count * kDbPerCount / 10.0) - noise;
           heard_m3 += cell;
           sum += sv * cell;
@@ -300,6 +304,22 @@ TEST_F(MeasureAtWork, FiguresAreCopiedWithTheirUnits) {
   EXPECT_THAT(names, HasSubstr("\tsigma_bs total (m2)\t"));
   EXPECT_THAT(values, HasSubstr(fmt::format("{:.3f}", measured()->area.statistics.echo.sv_mean_db)));
   EXPECT_EQ(document().notices(), std::vector<std::string>{});
+}
+
+// 30.48 m are 100 ft, 60.96 m 200 ft, 15.24 m 50 ft.
+TEST(MeasuredText, IsInTheUnitsThatAreRead) {
+  Measurement measured;
+  measured.line = {.horizontal_m = 30.48, .slant_m = 60.96, .deeper_m = 15.24};
+  const Units feet{LengthUnit::feet, SpeedUnit::usual};
+  EXPECT_EQ(whole_text(measured, feet), "line: 100.0 ft horizontal, 200.0 ft slant, 50.0 ft deeper");
+  EXPECT_EQ(brief_text(measured), "30.5 m horizontal\n61.0 m slant\n15.2 m deeper");
+  EXPECT_THAT(table_text(measured, feet), HasSubstr("\tslant distance (ft)\t"));
+  EXPECT_THAT(table_text(measured, feet), HasSubstr("\t200.00\t"));
+  EXPECT_THAT(table_text(measured), HasSubstr("\t60.96\t"));
+  measured.on = Measurement::On::map;
+  measured.line.horizontal_m = 1852.0;
+  EXPECT_THAT(whole_text(measured, feet), HasSubstr("6 076 ft, 1.000 nmi")) << "1852 / 0.3048 = 6076.1";
+  EXPECT_THAT(whole_text(measured), HasSubstr("1 852 m, 1.000 nmi"));
 }
 
 }  // namespace

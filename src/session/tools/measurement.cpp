@@ -36,30 +36,31 @@ std::string bearing_text(const LineFigures& line) {
                        : fmt::format("bearing {:05.1f}\u00B0", wrap_360(tenth));
 }
 
-std::string depth_text(const LineFigures& line) {
+std::string depth_text(const LineFigures& line, const Unit& unit) {
   if (std::isnan(line.deeper_m)) return {};
-  if (std::abs(line.deeper_m) < 0.05) return "equally deep";
-  return fmt::format("{:.1f} m {}", std::abs(line.deeper_m), line.deeper_m > 0.0 ? "deeper" : "shallower");
+  if (unit.of(std::abs(line.deeper_m)) < 0.05) return "equally deep";
+  return fmt::format("{} {}", quantity_text(std::abs(line.deeper_m), 1, unit),
+                     line.deeper_m > 0.0 ? "deeper" : "shallower");
 }
 
-std::string distance_text(const Measurement& measured) {
+std::string distance_text(const Measurement& measured, const Unit& unit) {
   const double distance_m = measured.line.horizontal_m;
-  if (measured.on != Measurement::On::map) return fmt::format("{:.1f} m horizontal", distance_m);
-  return fmt::format("{} m, {:.3f} nmi", grouped(static_cast<std::size_t>(std::llround(distance_m))),
-                     distance_m / kMetresPerNauticalMile);
+  if (measured.on != Measurement::On::map) return quantity_text(distance_m, 1, unit) + " horizontal";
+  return fmt::format("{} {}, {:.3f} nmi", grouped(static_cast<std::size_t>(std::llround(unit.of(distance_m)))),
+                     unit.name, distance_m / kMetresPerNauticalMile);
 }
 
-std::string slant_text(const LineFigures& line) {
-  return std::isnan(line.slant_m) ? std::string{} : fmt::format("{:.1f} m slant", line.slant_m);
+std::string slant_text(const LineFigures& line, const Unit& unit) {
+  return std::isnan(line.slant_m) ? std::string{} : quantity_text(line.slant_m, 1, unit) + " slant";
 }
 
-std::string end_text(const char* which, const MeasuredEnd& end) {
+std::string end_text(const char* which, const MeasuredEnd& end, const Unit& unit) {
   std::vector<std::string> parts;
   if (end.where) {
     parts.push_back(latitude_minutes_text(end.where->latitude_deg));
     parts.push_back(longitude_minutes_text(end.where->longitude_deg));
   }
-  if (!std::isnan(end.depth_m)) parts.push_back(fmt::format("depth {:.1f} m", end.depth_m));
+  if (!std::isnan(end.depth_m)) parts.push_back("depth " + quantity_text(end.depth_m, 1, unit));
   if (!std::isnan(end.sv_db)) parts.push_back(fmt::format("Sv {:.1f} dB", end.sv_db));
   return parts.empty() ? std::string{} : which + joined(parts, ", ");
 }
@@ -89,12 +90,12 @@ std::string sigma_text(const EchoStatistics& echo) {
   return std::isnan(echo.sv_mean_db) ? std::string{} : fmt::format("\u03C3_bs {:.3g} m\u00B2", echo.backscatter_m2);
 }
 
-std::string extent_text(const MaskExtents& extents) {
+std::string extent_text(const MaskExtents& extents, const Unit& unit) {
   if (std::isnan(extents.depth_min_m)) return {};
-  return fmt::format("depth {:.1f} to {:.1f} m", extents.depth_min_m, extents.depth_max_m);
+  return fmt::format("depth {:.1f} to {}", unit.of(extents.depth_min_m), quantity_text(extents.depth_max_m, 1, unit));
 }
 
-std::vector<std::string> area_parts(const Measurement& measured) {
+std::vector<std::string> area_parts(const Measurement& measured, const Unit& unit) {
   const EchoStatistics& echo = measured.area.statistics.echo;
   std::vector<std::string> parts;
   const auto voxels = static_cast<std::size_t>(echo.voxels);
@@ -102,7 +103,7 @@ std::vector<std::string> area_parts(const Measurement& measured) {
   if (voxels > 0) parts.push_back(fmt::format("{:.3g} m\u00B3", echo.volume_m3));
   parts.push_back(sv_text(echo));
   parts.push_back(sigma_text(echo));
-  parts.push_back(extent_text(measured.area.statistics.extents));
+  parts.push_back(extent_text(measured.area.statistics.extents, unit));
   if (echo.voxels > echo.heard) parts.push_back(fmt::format("{} faulty left out", echo.voxels - echo.heard));
   if (measured.area.never > 0) {
     parts.push_back(fmt::format("{} near transducer, surface or seabed left out", measured.area.never));
@@ -120,32 +121,37 @@ std::string with_decimals(double value, int decimals) {
   return std::isnan(value) ? std::string{} : fmt::format("{:.{}f}", value, decimals);
 }
 
-void add_end(const std::string& which, const MeasuredEnd& end, bool in_water, std::vector<Column>& columns) {
+Column length_column(const std::string& what, double m, const Unit& unit) {
+  return {with_unit(what, unit), with_decimals(unit.of(m), 2)};
+}
+
+void add_end(const std::string& which, const MeasuredEnd& end, bool in_water, const Unit& unit,
+             std::vector<Column>& columns) {
   columns.push_back({which + " latitude (deg)", end.where ? degrees_text(end.where->latitude_deg) : ""});
   columns.push_back({which + " longitude (deg)", end.where ? degrees_text(end.where->longitude_deg) : ""});
   if (!in_water) return;
-  columns.push_back({which + " depth (m)", with_decimals(end.depth_m, 2)});
+  columns.push_back(length_column(which + " depth", end.depth_m, unit));
   columns.push_back({which + " Sv (dB re 1 m-1)", with_decimals(end.sv_db, 2)});
 }
 
-std::vector<Column> line_columns(const Measurement& measured) {
+std::vector<Column> line_columns(const Measurement& measured, const Unit& unit) {
   const LineFigures& line = measured.line;
   const bool in_water = measured.on != Measurement::On::map;
   std::vector<Column> columns;
-  columns.push_back({"horizontal distance (m)", with_decimals(line.horizontal_m, 2)});
+  columns.push_back(length_column("horizontal distance", line.horizontal_m, unit));
   columns.push_back({"horizontal distance (nmi)", with_decimals(line.horizontal_m / kMetresPerNauticalMile, 5)});
-  if (in_water) columns.push_back({"slant distance (m)", with_decimals(line.slant_m, 2)});
+  if (in_water) columns.push_back(length_column("slant distance", line.slant_m, unit));
   columns.push_back(
       {line.from_bow ? "bearing from the bow (deg)" : "true bearing (deg)", with_decimals(line.bearing_deg, 2)});
-  if (in_water) columns.push_back({"depth difference (m)", with_decimals(line.deeper_m, 2)});
+  if (in_water) columns.push_back(length_column("depth difference", line.deeper_m, unit));
   if (measured.ends) {
-    add_end("from", measured.ends->front(), in_water, columns);
-    add_end("to", measured.ends->back(), in_water, columns);
+    add_end("from", measured.ends->front(), in_water, unit, columns);
+    add_end("to", measured.ends->back(), in_water, unit, columns);
   }
   return columns;
 }
 
-std::vector<Column> area_columns(const Measurement& measured) {
+std::vector<Column> area_columns(const Measurement& measured, const Unit& unit) {
   const EchoStatistics& echo = measured.area.statistics.echo;
   const MaskExtents& extents = measured.area.statistics.extents;
   return {{"shape", measured.shape == Measurement::Shape::box ? "box" : "lasso"},
@@ -160,12 +166,12 @@ std::vector<Column> area_columns(const Measurement& measured) {
           {"Sv 95th percentile (dB re 1 m-1)", with_decimals(echo.sv_p95_db, 3)},
           {"Sv maximum (dB re 1 m-1)", with_decimals(echo.sv_max_db, 3)},
           {"sigma_bs total (m2)", shortest(echo.backscatter_m2)},
-          {"depth min (m)", with_decimals(extents.depth_min_m, 2)},
-          {"depth max (m)", with_decimals(extents.depth_max_m, 2)},
-          {"range min (m)", with_decimals(extents.range_min_m, 2)},
-          {"range max (m)", with_decimals(extents.range_max_m, 2)},
-          {"length (m)", with_decimals(extents.length_m, 2)},
-          {"width (m)", with_decimals(extents.width_m, 2)}};
+          length_column("depth min", extents.depth_min_m, unit),
+          length_column("depth max", extents.depth_max_m, unit),
+          length_column("range min", extents.range_min_m, unit),
+          length_column("range max", extents.range_max_m, unit),
+          length_column("length", extents.length_m, unit),
+          length_column("width", extents.width_m, unit)};
 }
 
 }  // namespace
@@ -191,33 +197,38 @@ LineFigures line_figures(const MeasuredEnd& from, const MeasuredEnd& to, const P
   return line;
 }
 
-std::string brief_text(const Measurement& measured) {
-  if (measured.shape != Measurement::Shape::line) return joined(area_parts(measured), "\n");
-  return joined(
-      {distance_text(measured), slant_text(measured.line), bearing_text(measured.line), depth_text(measured.line)},
-      "\n");
+std::string brief_text(const Measurement& measured, const Units& units) {
+  const Unit unit = units.length();
+  if (measured.shape != Measurement::Shape::line) return joined(area_parts(measured, unit), "\n");
+  return joined({distance_text(measured, unit), slant_text(measured.line, unit), bearing_text(measured.line),
+                 depth_text(measured.line, unit)},
+                "\n");
 }
 
-std::string whole_text(const Measurement& measured) {
+std::string whole_text(const Measurement& measured, const Units& units) {
+  const Unit unit = units.length();
   if (measured.shape != Measurement::Shape::line) {
     const char* shape = measured.shape == Measurement::Shape::box ? "box: " : "lasso: ";
-    return shape + joined(area_parts(measured), ", ");
+    return shape + joined(area_parts(measured, unit), ", ");
   }
-  std::string text = "line: " + joined({distance_text(measured), slant_text(measured.line), bearing_text(measured.line),
-                                        depth_text(measured.line)},
+  std::string text = "line: " + joined({distance_text(measured, unit), slant_text(measured.line, unit),
+                                        bearing_text(measured.line), depth_text(measured.line, unit)},
                                        ", ");
   if (!measured.ends) return text;
-  return joined({text, end_text("from ", measured.ends->front()), end_text("to ", measured.ends->back())}, "; ");
+  return joined({text, end_text("from ", measured.ends->front(), unit), end_text("to ", measured.ends->back(), unit)},
+                "; ");
 }
 
-std::string table_text(const Measurement& measured) {
+std::string table_text(const Measurement& measured, const Units& units) {
+  const Unit unit = units.length();
   std::vector<Column> columns;
   if (measured.on != Measurement::On::map) {
     columns.push_back({"observation", measured.name});
     columns.push_back({"ping", std::to_string(measured.ping)});
   }
   const bool line = measured.shape == Measurement::Shape::line;
-  for (Column& column : line ? line_columns(measured) : area_columns(measured)) columns.push_back(std::move(column));
+  for (Column& column : line ? line_columns(measured, unit) : area_columns(measured, unit))
+    columns.push_back(std::move(column));
   std::string names;
   std::string values;
   for (const Column& column : columns) {

@@ -12,6 +12,7 @@
 #include "model/school.h"
 #include "pipeline/stages/voxel_statistics.h"
 #include "view/slices/slice.h"
+#include "view/units.h"
 
 namespace sonar {
 
@@ -70,10 +71,10 @@ struct Measurement {
                                        bool heading_known);
 
 /// A few lines to stand beside it.
-[[nodiscard]] std::string brief_text(const Measurement& measured);
+[[nodiscard]] std::string brief_text(const Measurement& measured, const Units& units = {});
 /// All of it in one line, for the status line.
-[[nodiscard]] std::string whole_text(const Measurement& measured);
+[[nodiscard]] std::string whole_text(const Measurement& measured, const Units& units = {});
 /// Two lines for a spreadsheet, columns set off by tabs: names with units, and figures. What is not known is empty.
-[[nodiscard]] std::string table_text(const Measurement& measured);
+[[nodiscard]] std::string table_text(const Measurement& measured, const Units& units = {});
 
 }  // namespace sonar

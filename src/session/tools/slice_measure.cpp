@@ -123,7 +123,7 @@ std::vector<Overlay> SliceMeasure::overlays(const SlicePicture& picture) const {
   if (!measured || !on_show(workspace_, *measured) || measured->slice != picture.map->view().slice) return {};
   std::vector<PixelPoint> at;
   for (const PixelPoint& p : measured->outline) at.push_back(in_picture(picture, p));
-  return measured_overlays(*measured, at, picture.plot.place);
+  return measured_overlays(*measured, at, picture.plot.place, workspace_.units());
 }
 
 }  // namespace sonar

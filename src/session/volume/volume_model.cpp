@@ -370,7 +370,7 @@ std::vector<Overlay> VolumeModel::overlays() const {
     const auto to = place_of(*measured->ends->back().place);
     const PixelRect& view = shown_->place;
     const PixelRect plot{view.x * scale(), view.y * scale(), view.width * scale(), view.height * scale()};
-    if (from && to) over = measured_overlays(*measured, {*from, *to}, plot);
+    if (from && to) over = measured_overlays(*measured, {*from, *to}, plot, workspace_.units());
   }
   if (!cursor) return over;
   if (const auto at = place_of(observation->sector().centre(cursor->fan, cursor->beam, cursor->sample))) {

@@ -38,6 +38,8 @@ class VolumeModel : public LivePicture {
   [[nodiscard]] const std::optional<Camera>& camera() const { return workspace_.camera(); }
   /// Of the picture on show; null before the first.
   [[nodiscard]] const LiveVolumeShown* shown() const { return shown_.get(); }
+  /// The back-end that drew it; empty before the first.
+  [[nodiscard]] std::string drawn_by() const { return shown_ == nullptr ? "" : shown_->renderer; }
 
   void pointer(const PointerEvent& event) override;
   [[nodiscard]] bool pans() const override { return true; }

@@ -20,7 +20,7 @@ constexpr double kSecond_s = 1.0;
 TimeNs time_of(double seconds) { return static_cast<TimeNs>(std::llround(seconds * 1e9)); }
 
 int power_of(const ChartColumn& column, double low, double high) {
-  const double most = std::max(std::abs(low), std::abs(high));
+  const double most = std::max(std::abs(low), std::abs(high)) / column.unit_size;
   if (column.time || column.degrees || !(most > 0.0) || (most >= kSmallest && most < kLargest)) return 0;
   return 3 * static_cast<int>(std::floor(std::log10(most) / 3.0));
 }
@@ -97,7 +97,7 @@ std::vector<ChartTick> chart_ticks(const ChartAxis& axis, int most) {
     }
     return out;
   }
-  const double unit = std::pow(10.0, axis.power);
+  const double unit = std::pow(10.0, axis.power) * axis.column.unit_size;
   const double low = axis.low / unit;
   const double high = axis.high / unit;
   Ticks ticks = axis.column.degrees ? degree_ticks(low, high, most) : nice_ticks(low, high, most);

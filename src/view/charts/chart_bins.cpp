@@ -81,6 +81,15 @@ RoundNumber width_of(const std::vector<double>& sorted, const ChartColumn& colum
 }  // namespace
 
 ChartBins chart_bins(std::span<const double> values, const ChartColumn& column, int about) {
+  if (column.unit_size != 1.0) {  // round numbers of the unit that is read
+    std::vector<double> read(values.begin(), values.end());
+    for (double& value : read) value /= column.unit_size;
+    ChartColumn plain = column;
+    plain.unit_size = 1.0;
+    ChartBins bins = chart_bins(read, plain, about);
+    for (double& edge : bins.edges) edge *= column.unit_size;
+    return bins;
+  }
   ChartBins bins;
   bins.bin_of_row.assign(values.size(), ChartBins::kNone);
   std::vector<double> sorted;

@@ -23,6 +23,7 @@ struct ChartBins {
 
 /// Bins over all values that are known. Their width is the round number (1, 2 or 5 times a power of ten; of times a round
 /// number of seconds, minutes, hours or days; of whole numbers at least 1) next to the one that is asked for.
+/// column  its unit_size too: round numbers are of the unit that is read, edges are in the table's
 /// about   how many bins; 0 = by the rule of Freedman and Diaconis (1981): 2 IQR / n^(1/3) wide, or, where half of the
 ///         values are equal, as many as Sturges (1926) has it
 /// out     no bins without a value

@@ -88,6 +88,13 @@ ChoiceNames chart_column_names() {
   return names;
 }
 
+ChartColumn shown_in(ChartColumn column, const Units& units) {
+  const Unit unit = shown_unit(column.unit, units);
+  column.unit = unit.name;
+  column.unit_size = unit.si;
+  return column;
+}
+
 std::string unit_text(std::string_view unit) {
   if (unit == "1") return {};
   std::string out;
@@ -136,6 +143,7 @@ std::string column_text(const ChartColumn& column, double value) {
   if (column.whole) return tick_text(value, 0);
   const std::string unit = unit_text(column.unit);
   const bool position = column.unit.starts_with("degrees_");
+  value /= column.unit_size;
   std::string number = position ? fmt::format("{:.5f}", value) : fmt::format("{:.4g}", value);
   if (number.starts_with('-')) number.replace(0, 1, "\u2212");
   return unit.empty() ? number : fmt::format("{} {}", number, unit);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/describe.h"
+#include "view/units.h"
 
 namespace sonar {
 
@@ -20,11 +21,12 @@ inline constexpr std::array<std::string_view, 2> kChartTableNames{"school_pings"
 /// A column of a table that a chart can show: its values are numbers or times.
 struct ChartColumn {
   std::string_view name;  ///< as the table has it: "depth_m"
-  std::string_view unit;  ///< as the table has it: "m", "dB re 1 m-1", "1"; empty for times
+  std::string_view unit;  ///< as the table has it: "m", "dB re 1 m-1", "1"; empty for times; "ft" where shown_in() says
   std::size_t place = 0;  ///< among all columns of the table
   bool time = false;      ///< UTC
   bool whole = false;     ///< numbers of things, without decimals
   bool degrees = false;   ///< angles and positions
+  double unit_size = 1.0;  ///< of the table's unit in one of `unit`, where numbers are read in another: values stay
 
   /// Pings and times follow one another: what is drawn over them can be joined.
   [[nodiscard]] bool is_order() const { return time || name == "ping_index"; }
@@ -41,6 +43,9 @@ struct ChartColumn {
 
 /// Names of the columns of both tables, each once.
 [[nodiscard]] ChoiceNames chart_column_names();
+
+/// The same column, read in a user's units: lengths and speeds are, areas, volumes and levels stay.
+[[nodiscard]] ChartColumn shown_in(ChartColumn column, const Units& units);
 
 /// "m", "m³", "dB re 1 m⁻¹", "degrees north"; empty for "1".
 [[nodiscard]] std::string unit_text(std::string_view unit);

@@ -85,11 +85,11 @@ Result<ChartData> chart_data(std::span<const ObservationProduct> products, const
   data.table = asked.table;
   const auto x = asked_column(asked.table, asked.x);
   if (!x) return pass_on(x);
-  data.x = *x;
+  data.x = shown_in(*x, asked.units);
   if (!asked.y.empty()) {
     const auto y = asked_column(asked.table, asked.y);
     if (!y) return pass_on(y);
-    data.y = *y;
+    data.y = shown_in(*y, asked.units);
   }
   data.title = products.size() == 1 ? observation_title(products.front()) : survey_title(products);
   for (std::size_t i = 0; i < products.size(); ++i) {

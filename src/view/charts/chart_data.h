@@ -55,6 +55,7 @@ struct ChartQuestion {
   std::string x = "time_utc";
   std::string y = "sv_mean_db";  ///< empty: a histogram of x
   bool rejected = true;          ///< rejected schools take part
+  Units units{};                 ///< that both columns are read in
 };
 
 /// errors  usage: the table has no such column; lists those that it has

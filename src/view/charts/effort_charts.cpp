@@ -229,8 +229,9 @@ Result<EffortChart> sv_section(std::span<const EffortRow> effort, std::span<cons
   chart.frame.size = size;
   chart.frame.background = theme.background;
   chart.frame.title = "Sv by sailed distance and depth";
-  chart.plot = {
-      layout.plot, {0.0, sailed_nmi(chart.places), "sailed on transects (nmi)"}, {shallowest, deepest, "depth (m)"}};
+  chart.plot = {layout.plot,
+                {0.0, sailed_nmi(chart.places), "sailed on transects (nmi)"},
+                length_axis(shallowest, deepest, "depth", theme)};
   chart.frame.items.emplace_back(rectangle_item(layout.plot, theme.no_data));
   chart.frame.items.emplace_back(ClipItem{layout.plot});
   std::map<std::pair<std::string, std::int64_t>, std::size_t> place_of;
@@ -254,7 +255,7 @@ Result<EffortChart> sv_section(std::span<const EffortRow> effort, std::span<cons
   chart.frame.items.emplace_back(ClipItem{});
   add_axes(chart.frame, chart.plot, theme);
   add_colour_bar(chart.frame, layout.colour_bar, colour_bar(colours), theme);
-  const std::string of = range_from_m ? fmt::format("range bin from {:g} m", *range_from_m)
+  const std::string of = range_from_m ? "range bin from " + round_text(*range_from_m, theme.units.length())
                                       : std::string("mean of all range bins, weighted by volume");
   add_title(chart.frame, layout, theme, {chart.frame.title, of});
   return chart;

@@ -38,10 +38,12 @@ std::vector<ChartTick> leg_ticks(std::size_t legs, double width_px, const Theme&
   return out;
 }
 
-std::vector<ChartTick> speed_ticks(double most, double height_px, const Theme& theme) {
+std::vector<ChartTick> speed_ticks(double most_mps, double height_px, const Theme& theme) {
+  const Unit unit = theme.units.speed();
+  const double most = unit.of(most_mps);
   const Ticks ticks = nice_ticks(-most, most, std::max(3, static_cast<int>(height_px / (2.6 * theme.text_px))));
   std::vector<ChartTick> out;
-  for (const double at : ticks.major) out.push_back({at, tick_text(at, ticks.decimals)});
+  for (const double at : ticks.major) out.push_back({at * unit.si, tick_text(at, ticks.decimals)});
   return out;
 }
 
@@ -98,7 +100,7 @@ Result<LegChart> leg_chart(const LegChartData& data, PixelSize size, const Theme
   const double most = most_of(data) * 1.1;
   out.plot = {layout.plot,
               {0.5, static_cast<double>(data.legs.size()) + 0.5, "course leg"},
-              {most * (1.0 + 2.0 * kHead), -most, "mean speed of the schools (m/s)"}};
+              {most * (1.0 + 2.0 * kHead), -most, with_unit("mean speed of the schools", theme.units.speed())}};
   out.frame.items.emplace_back(rectangle_item(layout.plot, theme.plot));
   const auto y = speed_ticks(most, layout.plot.height, theme);
   add_chart_grid(out.frame, out.plot, {}, y, theme);
@@ -121,12 +123,12 @@ Result<LegChart> leg_chart(const LegChartData& data, PixelSize size, const Theme
   return out;
 }
 
-std::string leg_text(const LegSpeed& leg) {
+std::string leg_text(const LegSpeed& leg, const Units& units) {
+  const Unit unit = units.speed();
   return fmt::format(
-      "{} UTC\ncourse {:03.0f}\u00B0, ship {:.1f} m/s, {}\nalong {:+.3f} \u00B1 {:.3f} m/s\nto starboard {:+.3f} "
-      "\u00B1 {:.3f} m/s",
-      leg.begins, leg.course_deg, leg.ship_mps, count_of(leg.schools, "school"), leg.along_mps, leg.along_se_mps,
-      leg.cross_mps, leg.cross_se_mps);
+      "{} UTC\ncourse {:03.0f}\u00B0, ship {}, {}\nalong {:+.3f} \u00B1 {}\nto starboard {:+.3f} \u00B1 {}", leg.begins,
+      leg.course_deg, quantity_text(leg.ship_mps, 1, unit), count_of(leg.schools, "school"), unit.of(leg.along_mps),
+      quantity_text(leg.along_se_mps, 3, unit), unit.of(leg.cross_mps), quantity_text(leg.cross_se_mps, 3, unit));
 }
 
 }  // namespace sonar

@@ -44,6 +44,6 @@ struct LegChart {
 [[nodiscard]] Result<LegChart> leg_chart(const LegChartData& data, PixelSize size, const Theme& theme);
 
 /// What is known of a leg, in lines.
-[[nodiscard]] std::string leg_text(const LegSpeed& leg);
+[[nodiscard]] std::string leg_text(const LegSpeed& leg, const Units& units = {});
 
 }  // namespace sonar

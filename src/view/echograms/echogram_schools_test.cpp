@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <span>
 #include <variant>
+#include <vector>
 
 #include "view/echograms/stacked_timelines.h"
 #include "view/maps/map_example.h"
@@ -215,6 +217,46 @@ TEST(StackedTimelines, HaveOneTimeAxis) {
   TimelinePanel along_log = above;
   along_log.style.axis = TimelineAxis::log;
   EXPECT_FALSE(stacked_timelines(along_log, below, kWide, theme));
+}
+
+// From 10 m at ping 2 to 18 m at ping 10, unknown at ping 12, then 30 m from ping 14 on to beyond the last ping.
+TEST(Echogram, ALineIsDrawnFromPingToPing) {
+  const ObservationProduct p = map_example::product("obs-0001", 24);
+  const auto at_ping = [&](std::size_t i) { return p.pings[i].time; };
+  const std::vector<TimelinePoint> line{{at_ping(2), 10.0},
+                                        {at_ping(10), 18.0},
+                                        {at_ping(12), std::nan("")},
+                                        {at_ping(14), 30.0},
+                                        {at_ping(23) + 3600 * kSecondNs, 30.0}};
+  TimelineObservation one{&p, nullptr};
+  one.line = line;
+  one.line_name = "seabed.evl";
+  TimelineStyle style;
+  style.height = EchogramHeight::depth;
+  style.shown_heights = TimelineHeights{0.0, 50.0};
+  constexpr PixelSize kSize{900, 400};
+  const Theme theme = light_theme(kSize);
+  const auto frame = timeline(std::span(&one, 1), style, kSize, theme);
+  const auto plot = timeline_plot(std::span(&one, 1), style, kSize, theme);
+  ASSERT_TRUE(frame && plot);
+  EXPECT_TRUE(says(*frame, "seabed.evl"));
+  const PathItem* drawn = nullptr;
+  for (const auto& item : frame->items) {
+    const auto* path = std::get_if<PathItem>(&item);
+    if (path != nullptr && path->stroke.colour == theme.accent && path->parts.size() == 2) drawn = path;
+  }
+  ASSERT_NE(drawn, nullptr);
+  const auto expect = [&](const PixelPoint& point, std::size_t ping, double depth_m) {
+    const double seconds = static_cast<double>(at_ping(ping) - plot->zero) / 1e9;
+    const PixelPoint expected = plot->plot.at(seconds, depth_m);
+    EXPECT_NEAR(point.x, expected.x, 1e-6);
+    EXPECT_NEAR(point.y, expected.y, 1e-6);
+  };
+  ASSERT_EQ(drawn->parts[0].points.size(), 9U) << "pings 2 to 10";
+  for (std::size_t i = 0; i < 9; ++i) expect(drawn->parts[0].points[i], i + 2, 10.0 + static_cast<double>(i));
+  ASSERT_EQ(drawn->parts[1].points.size(), 10U) << "pings 14 to 23";
+  expect(drawn->parts[1].points.front(), 14, 30.0);
+  expect(drawn->parts[1].points.back(), 23, 30.0);
 }
 
 }  // namespace

@@ -151,11 +151,14 @@ DepthBands depth_bands(const ScalarField& field, const Theme& theme) {
   // A level sea still has one band.
   const double middle = (low + high) / 2.0;
   const double half = std::max({(high - low) / 2.0, 0.01 * middle, 0.5});
-  const Ticks ticks = nice_ticks(std::max(0.0, middle - half), middle + half, kMostBands);
-  for (double v = std::floor((middle - half) / ticks.step) * ticks.step; v < middle + half + ticks.step;
-       v += ticks.step) {
-    bands.levels_m.push_back(std::max(0.0, std::round(v / ticks.step) * ticks.step));
-    if (bands.levels_m.back() >= middle + half) break;
+  const Unit unit = theme.units.length();
+  const double from = unit.of(middle - half);
+  const double to = unit.of(middle + half);
+  const Ticks ticks = nice_ticks(std::max(0.0, from), to, kMostBands);
+  for (double v = std::floor(from / ticks.step) * ticks.step; v < to + ticks.step; v += ticks.step) {
+    const double level = std::max(0.0, std::round(v / ticks.step) * ticks.step);
+    bands.levels_m.push_back(level * unit.si);
+    if (level >= to) break;
   }
   bands.map.stepped = true;
   const double muted = lightness(theme.background) < 50.0 ? kMutedDark : kMuted;
@@ -193,7 +196,7 @@ DepthBands add_depth_layer(FrameDescription& frame, const MapFrame& map, const D
     frame.items.emplace_back(std::move(path));
     if (level == 0.0) continue;
     for (const PathItem::Part& part : parts) {
-      add_label(frame, part.points, tick_text(level, 0), map, theme, taken);
+      add_label(frame, part.points, tick_text(theme.units.length().of(level), 0), map, theme, taken);
     }
   }
   frame.items.emplace_back(ClipItem{});

@@ -175,50 +175,51 @@ void add_graticule(FrameDescription& frame, const MapFrame& map, const Theme& th
   }
 }
 
-ScaleBar scale_bar(const MapFrame& map, PixelPoint left, double most_px, bool nautical) {
+ScaleBar scale_bar(const MapFrame& map, PixelPoint left, double most_px, bool nautical, const Units& units) {
   const Geographic middle = map.geographic({left.x + most_px / 2.0, left.y}).value_or(Geographic{});
   const double metres_per_px = map.true_metres_per_px(middle);
-  double unit = nautical ? kMetresPerNauticalMile : 1000.0;
-  const char* name = nautical ? "nmi" : "km";
+  Unit unit = nautical ? Unit{kMetresPerNauticalMile, "nmi"} : Unit{1000.0, "km"};
   const double most_m = most_px * metres_per_px;
-  if (!nautical && most_m < 1000.0) {
-    unit = 1.0;
-    name = "m";
-  }
-  const double power = std::pow(10.0, std::floor(std::log10(most_m / unit)));
-  const double lead = most_m / unit / power;
-  const double value = (lead >= 5.0 ? 5.0 : lead >= 2.0 ? 2.0 : 1.0) * power;
+  if (!nautical && most_m < 1000.0) unit = units.length();
   ScaleBar bar;
-  bar.length_m = value * unit;
+  bar.length_m = round_below(most_m, unit);
   bar.from = left;
   bar.to = {left.x + bar.length_m / metres_per_px, left.y};
-  bar.text = fmt::format("{:g} {}", value, name);
+  bar.text = round_text(bar.length_m, unit);
   return bar;
 }
 
 namespace {
 
-std::array<ScaleBar, 2> scale_bars(const MapFrame& map, double em) {
+std::array<ScaleBar, 2> scale_bars(const MapFrame& map, const Theme& theme) {
+  const double em = theme.text_px;
   const double most_px = std::min(14.0 * em, 0.3 * map.place.width);
   const double x = map.place.x + 1.2 * em;
   const double y = map.place.y + map.place.height - 2.0 * em;
-  return {scale_bar(map, {x, y}, most_px, true), scale_bar(map, {x, y + 0.9 * em}, most_px, false)};
+  return {scale_bar(map, {x, y}, most_px, true, theme.units),
+          scale_bar(map, {x, y + 0.9 * em}, most_px, false, theme.units)};
 }
 
 }  // namespace
 
-PixelRect scale_bars_place(const MapFrame& map, const Theme& theme) {
+std::optional<PixelRect> scale_bars_place(const MapFrame& map, const Theme& theme) {
+  constexpr double kLeastMap_em = 10.0;  // of a lower one they cover a quarter and more
   const double em = theme.text_px;
-  const auto bars = scale_bars(map, em);
+  if (map.place.height < kLeastMap_em * em) return std::nullopt;
+  const auto bars = scale_bars(map, theme);
   const PixelPoint from = bars[0].from;
   const double longest = std::max(bars[0].to.x, bars[1].to.x) - from.x;
-  return {from.x - 0.6 * em, from.y - 0.9 * em, longest + 5.4 * em, 2.7 * em};
+  return PixelRect{from.x - 0.6 * em, from.y - 0.9 * em, longest + 5.4 * em, 2.7 * em};
 }
 
-void add_scale_and_north(FrameDescription& frame, const MapFrame& map, const Theme& theme) {
+namespace {
+
+void add_scale(FrameDescription& frame, const MapFrame& map, const Theme& theme) {
   const double em = theme.text_px;
-  const auto bars = scale_bars(map, em);
-  frame.items.emplace_back(rectangle_item(scale_bars_place(map, theme), theme.halo, theme.grid, theme.line_px));
+  const auto place = scale_bars_place(map, theme);
+  if (!place) return;
+  const auto bars = scale_bars(map, theme);
+  frame.items.emplace_back(rectangle_item(*place, theme.halo, theme.grid, theme.line_px));
   for (const ScaleBar& bar : bars) {
     const double tick = 0.3 * em;
     PathItem path = polyline_item({{bar.from.x, bar.from.y - tick}, bar.from, bar.to, {bar.to.x, bar.to.y - tick}},
@@ -227,6 +228,13 @@ void add_scale_and_north(FrameDescription& frame, const MapFrame& map, const The
     frame.items.emplace_back(
         text_item({bar.to.x + 0.4 * em, bar.to.y - 0.1 * em}, bar.text, small_text_px(theme, 0.9), theme.text));
   }
+}
+
+}  // namespace
+
+void add_scale_and_north(FrameDescription& frame, const MapFrame& map, const Theme& theme) {
+  add_scale(frame, map, theme);
+  const double em = theme.text_px;
   double most_rad = 0.0;
   for (const double u : {0.02, 0.98}) {
     for (const double v : {0.02, 0.98}) {

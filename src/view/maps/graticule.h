@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,11 +40,12 @@ struct ScaleBar {
   std::string text;  ///< "5 nmi", "10 km"
 };
 /// left  of the bar; most_px  its longest length. Units: nautical miles or kilometres, metres where short.
-[[nodiscard]] ScaleBar scale_bar(const MapFrame& map, PixelPoint left, double most_px, bool nautical);
-/// Both bars in the map's lower left corner; where north is not up (over 1 degree off somewhere), an arrow in its upper
-/// right corner.
+[[nodiscard]] ScaleBar scale_bar(const MapFrame& map, PixelPoint left, double most_px, bool nautical,
+                                 const Units& units = {});
+/// Both bars in the map's lower left corner, but in a map so low that they would lie over what it shows; where north is not
+/// up (over 1 degree off somewhere), an arrow in its upper right corner.
 void add_scale_and_north(FrameDescription& frame, const MapFrame& map, const Theme& theme);
-/// What the bars cover of the map.
-[[nodiscard]] PixelRect scale_bars_place(const MapFrame& map, const Theme& theme);
+/// What the bars cover of the map; empty where there are none.
+[[nodiscard]] std::optional<PixelRect> scale_bars_place(const MapFrame& map, const Theme& theme);
 
 }  // namespace sonar

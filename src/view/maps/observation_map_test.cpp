@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "view/label_room.h"
+#include "view/maps/graticule.h"
 #include "view/maps/map_example.h"
 #include "view/maps/map_items.h"
 
@@ -241,6 +242,21 @@ TEST(ObservationMap, ANarrowMapSaysItsPingAndNotItsDay) {
   const auto frame = observation_map(*base, p, empty_mosaic(*base, p.pings.size()), 3, {});
   EXPECT_TRUE(says(frame, "ping 3 at 12:26:55"));
   EXPECT_FALSE(says(frame, "2020-09-13 12"));
+}
+
+// A low map is about where the ship is, not about how long a mile is.
+TEST(ObservationMap, AScaleStandsOnlyWhereItLeavesTheMapToBeSeen) {
+  const ObservationProduct p = map_example::product("obs-0001", 20);
+  const auto with_scale = [&](PixelSize size) {
+    const auto base = observation_map_base(p, size, light_theme(size));
+    EXPECT_TRUE(base);
+    const auto frame = observation_map(*base, p, empty_mosaic(*base, p.pings.size()), 3, {});
+    EXPECT_EQ(says(frame, " nmi"), scale_bars_place(base->map, base->theme).has_value());
+    return says(frame, " nmi");
+  };
+  EXPECT_TRUE(with_scale(kSize));
+  EXPECT_TRUE(with_scale({320, 240}));
+  EXPECT_FALSE(with_scale({400, 140}));
 }
 
 }  // namespace

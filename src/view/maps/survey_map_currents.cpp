@@ -106,6 +106,7 @@ std::string add_currents(const SurveyMapDrawing& d, const CurrentProfiles& profi
     }
   }
   if (fastest < kLeast_mps) return {};
+  const Unit unit = d.theme.units.length();
   std::vector<std::string> told;
   for (std::size_t k = 0; k < depths.size(); ++k) {
     const Rgba8 colour = colour_of(k, depths.size());
@@ -119,16 +120,17 @@ std::string add_currents(const SurveyMapDrawing& d, const CurrentProfiles& profi
       ends.push_back(*end);
     }
     if (ends.empty()) continue;
-    told.push_back(fmt::format("{:.0f}", depths[k]));
+    told.push_back(fmt::format("{:.0f}", unit.of(depths[k])));
     // Not the first: there stands the observation's name.
     const PixelPoint& end = ends[ends.size() / 2];
-    TextItem name = text_item({end.x, end.y - 0.5 * d.em}, told.back() + " m", 0.8 * d.em, colour, TextAnchor::centre);
+    TextItem name = text_item({end.x, end.y - 0.5 * d.em}, fmt::format("{} {}", told.back(), unit.name), 0.8 * d.em,
+                              colour, TextAnchor::centre);
     name.halo = d.theme.halo;
     d.frame.items.emplace_back(std::move(name));
   }
   return told.empty() ? std::string{}
-                      : fmt::format("Arrows: current at {} m depth, a colour for each; the longest is {:.2f} m/s",
-                                    fmt::join(told, ", "), fastest);
+                      : fmt::format("Arrows: current at {} {} depth, a colour for each; the longest is {}",
+                                    fmt::join(told, ", "), unit.name, quantity_text(fastest, 2, d.theme.units.speed()));
 }
 
 }  // namespace sonar

@@ -99,7 +99,9 @@ std::vector<ColourBar> survey_bars(const SurveyMapDrawing& d, const DepthBands& 
     bars.push_back(colour_bar(d.look.map(), style.sv_low_db, style.sv_high_db, "mean Sv (dB)"));
   }
   if (bands.levels_m.size() > 1) {
-    bars.push_back(colour_bar(bands.map, bands.levels_m.front(), bands.levels_m.back(), "depth (m)", true));
+    const Unit unit = d.theme.units.length();
+    bars.push_back(colour_bar(bands.map, unit.of(bands.levels_m.front()), unit.of(bands.levels_m.back()),
+                              with_unit("depth", unit), true));
   }
   return bars;
 }

@@ -75,16 +75,20 @@ class Context {
 
   void rings(const Fan& fan) {
     const double length_px = fan.far_m * fan.shown * pixels_per_unit();
-    const Ticks ticks = nice_ticks(0.0, fan.far_m, std::clamp(static_cast<int>(length_px / (6.0 * em())), 1, 6));
+    const Unit unit = theme_->units.length();
+    const Ticks ticks =
+        nice_ticks(0.0, unit.of(fan.far_m), std::clamp(static_cast<int>(length_px / (6.0 * em())), 1, 6));
     PathItem arcs;
     arcs.stroke = {theme_->ring, theme_->line_px, {2.0 * theme_->line_px, 3.0 * theme_->line_px}};
-    for (const double range : ticks.major) {
-      if (!(range > 0.0)) continue;
+    for (const double tick : ticks.major) {
+      if (!(tick > 0.0)) continue;
+      const double range = tick * unit.si;
       PathItem::Part arc;
       for (int i = 0; i <= kArcSteps; ++i) arc.points.push_back(arc_point(fan, i, range));
       arcs.parts.push_back(std::move(arc));
       const double beside = 1.9 * em() / std::max(1.0, range * fan.shown * pixels_per_unit());
-      label(pixel(fan.at(fan.last_rad + beside, range * fan.shown)), tick_text(range, ticks.decimals) + " m");
+      label(pixel(fan.at(fan.last_rad + beside, range * fan.shown)),
+            fmt::format("{} {}", tick_text(tick, ticks.decimals), unit.name));
     }
     frame_->items.emplace_back(std::move(arcs));
   }
@@ -220,10 +224,11 @@ std::string bearings_text(const SlicePing& ping, const SliceStyle& style) {
   return true_bearings(ping, style) ? "; true bearings" : "; bearings from the bow";
 }
 
-std::string plane_text(const PlaneSlice& plane, const SlicePing& ping, const SliceStyle& style) {
+std::string plane_text(const PlaneSlice& plane, const SlicePing& ping, const SliceStyle& style, const Unit& unit) {
+  const auto length = [&unit](double m) { return fmt::format("{} {}", tick_text(unit.of(m), 1), unit.name); };
   const double depth = plane.origin.z + ping.transducer_depth_m;
   if (plane.kind == PlaneSlice::Kind::horizontal)
-    return fmt::format("Horizontal plane, depth {} m{}", tick_text(depth, 1), bearings_text(ping, style));
+    return fmt::format("Horizontal plane, depth {}{}", length(depth), bearings_text(ping, style));
   if (plane.kind == PlaneSlice::Kind::vertical) {
     const double azimuth = std::atan2(plane.right.y, plane.right.x);
     if (!std::isfinite(ping.heading_rad)) {
@@ -232,9 +237,9 @@ std::string plane_text(const PlaneSlice& plane, const SlicePing& ping, const Sli
     return fmt::format("Vertical plane, true bearing {:.1f}\u00B0 to the right",
                        wrap_360(deg_from_rad(azimuth + ping.heading_rad)));
   }
-  return fmt::format("Oblique plane through {} m {}, {} m to {}, depth {} m", tick_text(std::abs(plane.origin.x), 1),
-                     plane.origin.x < 0.0 ? "astern" : "ahead", tick_text(std::abs(plane.origin.y), 1),
-                     plane.origin.y < 0.0 ? "port" : "starboard", tick_text(depth, 1));
+  return fmt::format("Oblique plane through {} {}, {} to {}, depth {}", length(std::abs(plane.origin.x)),
+                     plane.origin.x < 0.0 ? "astern" : "ahead", length(std::abs(plane.origin.y)),
+                     plane.origin.y < 0.0 ? "port" : "starboard", length(depth));
 }
 
 }  // namespace
@@ -263,7 +268,8 @@ void add_slice_context(FrameDescription& frame, const SliceMap& map, PixelPoint 
   }
 }
 
-std::string slice_text(const Sector& sector, const SliceView& view, const SlicePing& ping, const SliceStyle& style) {
+std::string slice_text(const Sector& sector, const SliceView& view, const SlicePing& ping, const SliceStyle& style,
+                       const Units& units) {
   if (const auto* top = std::get_if<TopSlice>(&view.slice)) {
     std::string out = fmt::format("Top: fan {}, elevation {}", top->fan, degrees(sector.elevation_rad(top->fan)));
     if (ping.frequency_hz.size() == static_cast<std::size_t>(sector.fans())) {
@@ -280,9 +286,10 @@ std::string slice_text(const Sector& sector, const SliceView& view, const SliceP
     return out;
   }
   if (const auto* range = std::get_if<RangeSlice>(&view.slice)) {
-    return fmt::format("Constant range {:.1f} m, sample {}", sector.range().range_m(range->sample), range->sample);
+    return fmt::format("Constant range {}, sample {}",
+                       quantity_text(sector.range().range_m(range->sample), 1, units.length()), range->sample);
   }
-  return plane_text(std::get<PlaneSlice>(view.slice), ping, style);
+  return plane_text(std::get<PlaneSlice>(view.slice), ping, style, units.length());
 }
 
 }  // namespace sonar

@@ -13,6 +13,6 @@ void add_slice_context(FrameDescription& frame, const SliceMap& map, PixelPoint 
 /// One line on where the slice lies, and what the bearings along its edge start from: "Top: fan 7, elevation -13.5 deg,
 /// 85.2 kHz; bearings from the bow".
 [[nodiscard]] std::string slice_text(const Sector& sector, const SliceView& view, const SlicePing& ping,
-                                     const SliceStyle& style);
+                                     const SliceStyle& style, const Units& units = {});
 
 }  // namespace sonar

@@ -26,7 +26,7 @@ PlotFrame slice_axes(const PixelRect& place, const SliceExtent& extent) {
 }
 
 /// Distances to the side that the sonar looks to, the bow up; to both sides without a sign where it looks to both.
-void label_sides(PlotAxis& x, const Sector& sector) {
+void label_sides(PlotAxis& x, const Sector& sector, const Theme& theme) {
   bool port = false;
   bool starboard = false;
   for (int beam = 0; beam < sector.beams(); ++beam) {
@@ -35,33 +35,35 @@ void label_sides(PlotAxis& x, const Sector& sector) {
     starboard = starboard || aside > 1e-9;
   }
   if (port == starboard) {
-    x.label = "port | starboard (m)";
+    x = length_axis(x.first, x.last, "port | starboard", theme);
     x.both_ways = true;
   } else if (port) {
-    x = {-x.first, -x.last, "port (m)", false};
+    x = length_axis(-x.first, -x.last, "port", theme);
   } else {
-    x.label = "starboard (m)";
+    x = length_axis(x.first, x.last, "starboard", theme);
   }
 }
 
-void label_from_above(PlotFrame& plot, const Sector& sector, bool north_up, double up_rad) {
-  const char* upwards = north_up ? "north (m)" : up_rad == 0.0 ? "ahead (m)" : "up (m)";
-  plot.y = {-plot.y.first, -plot.y.last, upwards, false};
-  if (!north_up && up_rad == 0.0) return label_sides(plot.x, sector);
-  plot.x.label = north_up ? "east (m)" : "right (m)";
+void label_from_above(PlotFrame& plot, const Sector& sector, bool north_up, double up_rad, const Theme& theme) {
+  const char* upwards = north_up ? "north" : up_rad == 0.0 ? "ahead" : "up";
+  plot.y = length_axis(-plot.y.first, -plot.y.last, upwards, theme);
+  if (!north_up && up_rad == 0.0) return label_sides(plot.x, sector, theme);
+  plot.x = length_axis(plot.x.first, plot.x.last, north_up ? "east" : "right", theme);
 }
 
 /// Slice coordinates to what people read: depths below the water line, north upwards, elevations upwards.
-void label_axes(PlotFrame& plot, const Sector& sector, const SliceView& view, const SlicePing& ping, bool north_up) {
+void label_axes(PlotFrame& plot, const Sector& sector, const SliceView& view, const SlicePing& ping, bool north_up,
+                const Theme& theme) {
   const auto depths = [&](double origin_z) {
     plot.y.first += origin_z + ping.transducer_depth_m;
     plot.y.last += origin_z + ping.transducer_depth_m;
-    plot.y.label = "depth (m)";
+    plot.y = length_axis(plot.y.first, plot.y.last, "depth", theme);
   };
-  if (std::holds_alternative<TopSlice>(view.slice)) return label_from_above(plot, sector, north_up, view.up_rad);
+  const auto from_above = [&] { label_from_above(plot, sector, north_up, view.up_rad, theme); };
+  if (std::holds_alternative<TopSlice>(view.slice)) return from_above();
   if (std::holds_alternative<SideSlice>(view.slice)) {
     depths(0.0);
-    plot.x.label = "horizontal distance (m)";
+    plot.x = length_axis(plot.x.first, plot.x.last, "horizontal distance", theme);
     return;
   }
   if (std::holds_alternative<RangeSlice>(view.slice)) {
@@ -71,9 +73,9 @@ void label_axes(PlotFrame& plot, const Sector& sector, const SliceView& view, co
     return;
   }
   const auto& plane = std::get<PlaneSlice>(view.slice);
-  if (plane.kind == PlaneSlice::Kind::horizontal) return label_from_above(plot, sector, north_up, view.up_rad);
-  plot.x.label = "along (m)";
-  plot.y.label = "down the plane (m)";
+  if (plane.kind == PlaneSlice::Kind::horizontal) return from_above();
+  plot.x = length_axis(plot.x.first, plot.x.last, "along", theme);
+  plot.y = length_axis(plot.y.first, plot.y.last, "down the plane", theme);
   if (plane.kind == PlaneSlice::Kind::vertical) depths(plane.origin.z);
 }
 
@@ -82,7 +84,7 @@ void add_words(SlicePicture& out, const Layout& layout, const SlicePing& ping, c
   add_axes(out.frame, out.plot, theme, {style.grid, true});
   std::string first = ping.observation;
   if (ping.ping_index >= 0) first += fmt::format("{}ping {}", first.empty() ? "" : "   ", ping.ping_index);
-  add_title(out.frame, layout, theme, {first, slice_text(out.map->sector(), out.map->view(), ping, style)},
+  add_title(out.frame, layout, theme, {first, slice_text(out.map->sector(), out.map->view(), ping, style, theme.units)},
             ping.time != 0 ? time_text(ping.time) : "");
   add_colour_bar(out.frame, layout.colour_bar, colour_bar(style.colours), theme);
 }
@@ -190,13 +192,13 @@ Result<SlicePicture> slice_picture(const Sector& sector, const SliceData& data, 
     out.plot = std::move(whole->plot);
     out.map = std::move(whole->map);
   }
-  label_axes(out.plot, sector, view, ping, style.north_up);
+  label_axes(out.plot, sector, view, ping, style.north_up, theme);
   auto image = slice_image(*out.map, data, style.colours, style.flags, style.masks, theme);
   if (!image) return pass_on(image);
 
   out.frame.size = size;
   out.frame.background = theme.background;
-  out.frame.title = slice_text(sector, view, ping, style);
+  out.frame.title = slice_text(sector, view, ping, style, theme.units);
   out.frame.items.emplace_back(rectangle_item(layout.plot, theme.plot));
   out.frame.items.emplace_back(ImageItem{layout.plot, std::make_shared<const Image>(std::move(*image)), false});
   out.frame.items.emplace_back(ClipItem{layout.plot});

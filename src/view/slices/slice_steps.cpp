@@ -304,7 +304,7 @@ Result<SliceStepsPicture> slice_steps(const Sector& sector, const SliceStepsData
   SliceStyle slice;
   slice.north_up = style.north_up;
   slice.rings = style.compared.has_value();
-  const std::string where = slice_text(sector, view, ping, slice);
+  const std::string where = slice_text(sector, view, ping, slice, theme.units);
   out.frame.title = "Noise steps: " + where;
   Page page(sector, data, ping, view, style, theme, out);
   const auto done = style.compared ? page.add_compared(layout.plot, *style.compared) : page.add_all(layout.plot);

@@ -70,7 +70,8 @@ Pings pings_under(std::span<const double> x, double gap, double from, double to)
   return p;
 }
 
-void add_y_axis(FrameDescription& frame, const PlotFrame& plot, const Theme& theme) {
+void add_y_axis(FrameDescription& frame, const PlotFrame& axes, const Theme& theme) {
+  const PlotFrame plot = as_read(axes);
   const double em = theme.text_px;
   int most = std::max(2, static_cast<int>(plot.place.height / (3.5 * em)));
   Ticks ticks = nice_ticks(plot.y.first, plot.y.last, most);
@@ -294,7 +295,7 @@ Result<LaidOut> laid_out(std::span<const TimelineObservation> observations, cons
     day = style.shown->first;
   }
   plot.x.label = style.axis == TimelineAxis::log ? "log (nmi)" : "time (UTC), " + clock_text(day, true).substr(0, 10);
-  plot.y = {0.0, reach_m(out.strips), style.height == EchogramHeight::depth ? "depth (m)" : "range (m)", false};
+  plot.y = length_axis(0.0, reach_m(out.strips), style.height == EchogramHeight::depth ? "depth" : "range", theme);
   if (const auto& part = style.shown_heights; part && part->last_m > part->first_m) {
     plot.y.first = part->first_m;
     plot.y.last = part->last_m;
@@ -349,6 +350,7 @@ Result<FrameDescription> timeline(std::span<const TimelineObservation> observati
     if (style.schools && !style.outlined) add_tracks(frame, s, plot, style, theme, numbers);
     if (style.schools && style.outlined) add_outlines(frame, s, plot, style, theme, numbers);
   }
+  for (const Strip& s : laid->strips) add_line(frame, s, plot, theme);
   for (const Strip& s : laid->strips) add_refused(frame, s, plot, theme);
   add_track_numbers(frame, numbers, plot, theme);
   add_marks(frame, laid->strips, plot, theme);

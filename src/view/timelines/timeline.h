@@ -81,6 +81,11 @@ struct TimelineMark {
   std::string kind;  ///< "trawl", ...
   std::string text;
 };
+/// A point of a line that was drawn over time, on the clock of the product's pings.
+struct TimelinePoint {
+  TimeNs time = 0;
+  double height_m = 0.0;  ///< on the upright axis; NaN = unknown, and the line has a gap there
+};
 /// One observation of a timeline.
 struct TimelineObservation {
   const ObservationProduct* product = nullptr;
@@ -92,6 +97,8 @@ struct TimelineObservation {
   std::int64_t chosen_echo = 0;                  ///< echo_id that is highlighted; 0 = none
   std::span<const EchogramSchool> schools = {};  ///< where the style outlines them
   std::string label = {};                        ///< named above it so; empty = the observation's name
+  std::span<const TimelinePoint> line = {};      ///< in time order; drawn from ping to ping
+  std::string line_name = {};                    ///< of its file, for the key
 };
 
 /// A raster of an echogram, and what it cost.

@@ -61,6 +61,48 @@ PathItem hatch_item(const PixelRect& r, double slope, const Theme& theme) {
 
 namespace {
 
+/// Between two points that are known; NaN elsewhere.
+double height_at(std::span<const TimelinePoint> line, TimeNs time) {
+  const auto after = std::ranges::lower_bound(line, time, {}, &TimelinePoint::time);
+  if (after == line.end()) return std::nan("");
+  if (after->time == time) return after->height_m;
+  if (after == line.begin()) return std::nan("");
+  const TimelinePoint& before = *(after - 1);
+  const double part = static_cast<double>(time - before.time) / static_cast<double>(after->time - before.time);
+  return before.height_m + part * (after->height_m - before.height_m);
+}
+
+}  // namespace
+
+void add_line(FrameDescription& frame, const Strip& s, const PlotFrame& plot, const Theme& theme) {
+  if (s.observation->line.empty()) return;
+  // Pings that share a pixel make one point: what is drawn grows with the picture, not with the number of pings.
+  constexpr double kLeastStep_px = 0.5;
+  const auto& pings = s.observation->product->pings;
+  std::vector<PathItem::Part> parts;
+  bool on = false;
+  for (std::size_t i = 0; i < s.along.x.size(); ++i) {
+    const double height_m = height_at(s.observation->line, pings[i].time);
+    on = on && std::isfinite(height_m) && !s.along.gap_between(i - 1, i);
+    if (!std::isfinite(height_m)) continue;
+    if (!on) parts.emplace_back();
+    on = true;
+    const PixelPoint at = plot.at(s.along.x[i], height_m);
+    std::vector<PixelPoint>& points = parts.back().points;
+    if (points.empty() || at.x - points.back().x >= kLeastStep_px) points.push_back(at);
+  }
+  std::erase_if(parts, [](const PathItem::Part& part) { return part.points.size() < 2; });
+  if (parts.empty()) return;
+  for (const bool halo : {true, false}) {
+    PathItem item;
+    item.parts = parts;
+    item.stroke = {halo ? theme.halo : theme.accent, (halo ? 3.6 : 2.0) * theme.line_px, {}};
+    frame.items.emplace_back(std::move(item));
+  }
+}
+
+namespace {
+
 bool silent(const EchogramPyramid& echogram, std::size_t column) {
   for (int bin = 0; bin < echogram.bins(0); ++bin) {
     if (!echogram.cell(0, column, bin).empty()) return false;

@@ -81,6 +81,8 @@ void add_refused(FrameDescription& frame, const Strip& strip, const PlotFrame& p
 /// What the lines and the shades of a timeline are.
 [[nodiscard]] std::vector<KeyEntry> timeline_key(std::span<const Strip> strips, const TimelineStyle& style,
                                                  const Theme& theme);
+/// The line of an observation.
+void add_line(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const Theme& theme);
 /// Events: a line with a flag, and its text where there is room.
 void add_marks(FrameDescription& frame, std::span<const Strip> strips, const PlotFrame& plot, const Theme& theme);
 /// Observations named above the plot.

@@ -123,6 +123,14 @@ std::vector<KeyEntry> timeline_key(std::span<const Strip> strips, const Timeline
                      frame.items.emplace_back(std::move(line));
                    }});
   }
+  const auto lined = std::ranges::find_if(strips, [](const Strip& s) { return !s.observation->line.empty(); });
+  if (lined != strips.end()) {
+    out.push_back(
+        {lined->observation->line_name, [theme](FrameDescription& frame, const PixelRect& at) {
+           const double y = at.y + 0.5 * at.height;
+           frame.items.emplace_back(line_item({at.x, y}, {at.x + at.width, y}, theme.accent, 2.0 * theme.line_px));
+         }});
+  }
   if (std::any_of(strips.begin(), strips.end(), [](const Strip& s) { return !s.observation->refused.empty(); })) {
     out.push_back(refused_key(theme));
   }

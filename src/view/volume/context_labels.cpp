@@ -148,12 +148,12 @@ void label_schools(ContextLabels& labels, const std::vector<SchoolPlace>& school
   }
 }
 
-/// Of the rings and the depth axis: both are metres. In a small picture one of each says what its figures are.
-std::string distance_text(const char* word, double metres, bool with_word) {
-  return with_word ? fmt::format("{} {:g} m", word, metres) : fmt::format("{:g} m", metres);
+/// Of the rings and the depth axis: both are lengths. In a small picture one of each says what its figures are.
+std::string distance_text(const char* word, double metres, bool with_word, const Unit& unit) {
+  return with_word ? fmt::format("{} {}", word, round_text(metres, unit)) : round_text(metres, unit);
 }
 
-void label_rings(ContextLabels& labels, const SurfaceGrid& grid, double z) {
+void label_rings(ContextLabels& labels, const SurfaceGrid& grid, double z, const Unit& unit) {
   const double edge = grid.first_azimuth_rad;
   // Every second one in a small picture, the farthest among them.
   const std::size_t step = labels.small() ? 2 : 1;
@@ -162,16 +162,16 @@ void label_rings(ContextLabels& labels, const SurfaceGrid& grid, double z) {
     const double radius = grid.radii_m[i];
     const Labelled place{on_surface(radius, edge, z), on_surface(0.9 * radius, edge, z),
                          on_surface(radius, edge - 0.05, z)};
-    if (labels.add(place, distance_text("range", radius, !named))) named = labels.small();
+    if (labels.add(place, distance_text("range", radius, !named, unit))) named = labels.small();
   }
 }
 
-void label_depths(ContextLabels& labels, const DepthAxis& axis, double far_m, double z) {
+void label_depths(ContextLabels& labels, const DepthAxis& axis, double far_m, double z, const Unit& unit) {
   bool named = false;
   for (const double depth : axis.depths_m) {
     const Point<Sonar> tick = Point<Sonar>{axis.top.x, axis.top.y, depth + z} + axis.outwards * (0.015 * far_m);
     const Labelled place{tick, tick + Point<Sonar>{0.0, 0.0, 0.02 * far_m}, tick + axis.outwards * (0.05 * far_m)};
-    if (labels.add(place, distance_text("depth", depth, !named))) named = labels.small();
+    if (labels.add(place, distance_text("depth", depth, !named, unit))) named = labels.small();
   }
 }
 
@@ -202,6 +202,15 @@ void label_slices(ContextLabels& labels, const Sector& sector, const ContextPara
   if (params.side_beam) {
     const double elevation = between(sector.elevation_rad(sector.fans() - 1), sector.elevation_rad(0), kAlong);
     label(elevation, sector.azimuth_rad(*params.side_beam), 0.02, 0.0, "slice from the side");
+  }
+}
+
+/// Their depths, beside where they begin.
+void label_currents(ContextLabels& labels, const std::vector<CurrentArrow>& arrows, double far_m) {
+  for (const CurrentArrow& arrow : arrows) {
+    const Point<Sonar> back = (arrow.from - arrow.to) * (0.05 * far_m / norm(arrow.to - arrow.from));
+    labels.add({arrow.from, arrow.from + Point<Sonar>{0.0, 0.0, 0.02 * far_m}, arrow.from + back},
+               fmt::format("{:g} m", arrow.depth_m));
   }
 }
 
@@ -244,6 +253,7 @@ void add_context_labels(FrameDescription& frame, const Sector& sector, const Con
   ContextParams lines = params;
   lines.ship = lines.sea_surface = false;
   lines.fitted_seabed.reset();
+  lines.shadow_from.reset();  // so many that no label would have room
   ContextLabels labels(frame, camera, theme, opaque);
   for (const PixelRect& place : taken) labels.keep_off(place);
   const ContextScene drawn = context_scene(sector, lines, theme);
@@ -251,11 +261,14 @@ void add_context_labels(FrameDescription& frame, const Sector& sector, const Con
   labels.keep_off(drawn.under);
   label_schools(labels, params.schools, camera);
   const double z = -params.transducer_depth_m;
+  const Unit unit = params.units.length();
   const SurfaceGrid grid = surface_grid(sector, params);
-  if (params.range_rings) label_rings(labels, grid, z);
-  if (params.depth_axis) label_depths(labels, depth_axis(sector, params), far_range_m(sector), z);
+  if (params.range_rings) label_rings(labels, grid, z, unit);
+  if (params.depth_axis) label_depths(labels, depth_axis(sector, params), far_range_m(sector), z, unit);
   if (params.range_rings) label_bearings(labels, grid, params, z);
   label_slices(labels, sector, params);
+  label_currents(labels, current_arrows(sector, params.currents, params.heading_deg, params.transducer_depth_m),
+                 far_range_m(sector));
 }
 
 }  // namespace sonar

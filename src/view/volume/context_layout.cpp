@@ -41,9 +41,10 @@ Point<Sonar> on_surface(double distance_m, double azimuth_rad, double z_m) {
 SurfaceGrid surface_grid(const Sector& sector, const ContextParams& params) {
   SurfaceGrid out;
   out.edge_m = reach_sideways_m(sector);
+  const Unit unit = params.units.length();
   double spacing = params.ring_spacing_m;
   // A spacing that would draw hundreds of rings is a slip of the hand.
-  if (!(spacing > out.edge_m / 50.0)) spacing = nice_ticks(0.0, out.edge_m, 6).step;
+  if (!(spacing > out.edge_m / 50.0)) spacing = nice_ticks(0.0, unit.of(out.edge_m), 6).step * unit.si;
   for (double radius = spacing; radius <= out.edge_m * 1.0001; radius += spacing) out.radii_m.push_back(radius);
   if (out.radii_m.empty()) out.radii_m.push_back(out.edge_m);
   out.first_azimuth_rad = sector.azimuth_rad(0);
@@ -74,7 +75,9 @@ DepthAxis depth_axis(const Sector& sector, const ContextParams& params) {
   out.bottom = on_surface(distance, azimuth, deepest - params.transducer_depth_m);
   // Away from the sector, along the edge of its first beam.
   out.outwards = {std::sin(azimuth), -std::cos(azimuth), 0.0};
-  for (const double depth : nice_ticks(0.0, deepest, 7).major) {
+  const Unit unit = params.units.length();
+  for (const double tick : nice_ticks(0.0, unit.of(deepest), 7).major) {
+    const double depth = tick * unit.si;
     if (depth > 0.0 && depth <= deepest) out.depths_m.push_back(depth);
   }
   return out;

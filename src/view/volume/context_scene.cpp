@@ -95,6 +95,19 @@ void add_slices(ContextScene& scene, const Sector& sector, const ContextParams& 
   if (params.side_beam) add_polyline(scene, beam_outline(sector, *params.side_beam), colour, 1.2 * theme.line_px);
 }
 
+/// Along the beams, from where the shadow begins to the record's end.
+void add_shadow(ContextScene& scene, const Sector& sector, const std::vector<int>& from, const Theme& theme) {
+  const double spacing_m = sector.range().spacing_m;
+  for (std::size_t row = 0; row < from.size(); ++row) {
+    if (from[row] >= sector.range().count) continue;
+    const int fan = static_cast<int>(row) / sector.beams();
+    const int beam = static_cast<int>(row) % sector.beams();
+    const Point<Sonar> along = Sector::direction(sector.elevation_rad(fan), sector.azimuth_rad(beam));
+    const double begins_m = std::max(0.0, sector.range().range_m(from[row]) - 0.5 * spacing_m);
+    add_straight(scene, along * begins_m, along * far_range_m(sector), shadow_colour(theme), theme.line_px);
+  }
+}
+
 void add_ship(ContextScene& scene, const ContextParams& params) {
   // The transducer sits in the hull, a little ahead of amidships on most ships; amidships is near enough here.
   for (SceneTriangle triangle : ship_mesh(params.ship_length_m)) {
@@ -105,6 +118,8 @@ void add_ship(ContextScene& scene, const ContextParams& params) {
 }
 
 }  // namespace
+
+Rgba8 shadow_colour(const Theme& theme) { return with_alpha(theme.hatch, 110); }
 
 void add_straight(ContextScene& scene, const Point<Sonar>& from, const Point<Sonar>& to, Rgba8 colour,
                   double width_px) {
@@ -139,6 +154,9 @@ ContextScene context_scene(const Sector& sector, const ContextParams& params, co
   if (seabed) add_seabed(scene, *seabed, params.transducer_depth_m, theme);
   add_slices(scene, sector, params, theme);
   add_drop_lines(scene, params, theme);
+  if (params.shadow_from) add_shadow(scene, sector, *params.shadow_from, theme);
+  add_current_arrows(scene, current_arrows(sector, params.currents, params.heading_deg, params.transducer_depth_m),
+                     params.transducer_depth_m, theme);
   if (params.trails) scene.under = *params.trails;
   return scene;
 }

@@ -15,6 +15,7 @@
 #include "view/free_place.h"
 #include "view/theme.h"
 #include "view/volume/camera.h"
+#include "view/volume/current_arrows.h"
 #include "view/volume/school_places.h"
 
 namespace sonar {
@@ -75,6 +76,7 @@ struct ContextParams {
   bool ship = true;
   bool depth_axis = true;
   double ring_spacing_m = 0.0;  ///< 0 = chosen by the range
+  Units units{};                ///< rings and depths stand at round numbers of them
   double ship_length_m = 60.0;
   double transducer_depth_m = 7.0;
   std::optional<double> heading_deg;  ///< bearings are labelled from true north where it is known, else from the bow
@@ -82,10 +84,17 @@ struct ContextParams {
   std::optional<int> side_beam;       ///< the same of the slice from the side
   std::optional<FittedSeabed> fitted_seabed;
   std::vector<SchoolPlace> schools;  ///< have drop lines and names; labels keep off them
+  CurrentColumn currents;            ///< arrows below the ship; none = nothing
+  /// [row] sample from which a beam lies in schools' shadow, its record's end = nowhere; null = not shown. The same object =
+  /// the same samples.
+  std::shared_ptr<const std::vector<int>> shadow_from;
   /// Tracks and trails (SchoolTrails), in the sonar frame; null = none. The same object = the same lines.
   std::shared_ptr<const std::vector<SceneLine>> trails;
   friend bool operator==(const ContextParams&, const ContextParams&) = default;
 };
+
+/// Of the lines where schools' shadow lies.
+[[nodiscard]] Rgba8 shadow_colour(const Theme& theme);
 
 [[nodiscard]] ContextScene context_scene(const Sector& sector, const ContextParams& params, const Theme& theme,
                                          const std::optional<SeabedPatch>& seabed = std::nullopt);
@@ -98,8 +107,8 @@ struct ContextParams {
 /// Smallest and largest depth of what lies below the sea, m, at least 1 m apart; empty where nothing does.
 [[nodiscard]] std::optional<std::pair<double, double>> depth_span(const SeabedPatch& bed);
 
-/// Metres of depth between a seabed's lines; 0 where nothing is known.
-[[nodiscard]] double seabed_line_step_m(const SeabedPatch& bed);
+/// Metres of depth between a seabed's lines, which lie at round numbers of the unit of lengths; 0 where nothing is known.
+[[nodiscard]] double seabed_line_step_m(const SeabedPatch& bed, const Units& units = {});
 /// How many times as steep as it is a seabed is lit, 1 to 100, so that gentle slopes are seen: charts do the same. Its
 /// places are true.
 [[nodiscard]] double relief_exaggeration(const SeabedPatch& bed);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/volume/distance_bar.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -13,28 +11,21 @@
 namespace sonar {
 namespace {
 
-std::string words_of(const DistanceBar& bar) { return fmt::format("{:g} m at the view's centre", bar.length_m); }
-
-/// Largest 1, 2 or 5 times a power of ten that is no larger.
-double round_below(double value) {
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double step : {5.0, 2.0}) {
-    if (step * power <= value) return step * power;
-  }
-  return power;
+std::string words_of(const DistanceBar& bar, const Theme& theme) {
+  return round_text(bar.length_m, theme.units.length()) + " at the view's centre";
 }
 
 TextItem words_item(const DistanceBar& bar, PixelPoint at, const Theme& theme) {
-  return {at, words_of(bar), theme.text_px, theme.text, TextAnchor::right, 0.0, false, theme.halo};
+  return {at, words_of(bar, theme), theme.text_px, theme.text, TextAnchor::right, 0.0, false, theme.halo};
 }
 
 }  // namespace
 
-std::optional<DistanceBar> distance_bar(const Camera& camera, PixelSize size, double most_px) {
+std::optional<DistanceBar> distance_bar(const Camera& camera, PixelSize size, double most_px, const Unit& unit) {
   const double distance_m = norm(camera.target - camera.eye);
   if (!(distance_m > 0.0) || size.height <= 0 || !(most_px > 1.0)) return std::nullopt;
   const double px_per_m = 0.5 * size.height / (std::tan(0.5 * camera.vertical_fov_rad) * distance_m);
-  const double length_m = round_below(most_px / px_per_m);
+  const double length_m = round_below(most_px / px_per_m, unit);
   if (!std::isfinite(length_m) || !(length_m > 0.0)) return std::nullopt;
   return DistanceBar{length_m, length_m * px_per_m};
 }

@@ -12,13 +12,14 @@ namespace sonar {
 /// How long a distance looks in a picture in perspective. It holds across the line of sight at the camera's target, in
 /// the middle of the picture; nearer things look larger.
 struct DistanceBar {
-  double length_m = 0.0;  ///< 1, 2 or 5 times a power of ten
+  double length_m = 0.0;  ///< 1, 2 or 5 times a power of ten of the unit
   double length_px = 0.0;
 };
 
 /// The longest that is no longer than `most_px`.
 /// result  empty where the eye is at its target, or there is no room
-[[nodiscard]] std::optional<DistanceBar> distance_bar(const Camera& camera, PixelSize size, double most_px);
+[[nodiscard]] std::optional<DistanceBar> distance_bar(const Camera& camera, PixelSize size, double most_px,
+                                                      const Unit& unit = Units{}.length());
 
 /// What the bar and its words cover.
 /// right, bottom  of that, pixels

@@ -47,16 +47,18 @@ void add_depth_scale(FrameDescription& frame, double middle_m, double px_per_m, 
     frame.items.emplace_back(
         line_item({place.x, y_of(0.0)}, {place.x + place.width, y_of(0.0)}, theme.track, 1.5 * theme.line_px));
   }
-  const Ticks ticks =
-      nice_ticks(std::max(0.0, shallow), deep, std::max(2, static_cast<int>(place.height / (3.0 * theme.text_px))));
-  for (const double depth : ticks.major) {
+  const Unit unit = theme.units.length();
+  const Ticks ticks = nice_ticks(unit.of(std::max(0.0, shallow)), unit.of(deep),
+                                 std::max(2, static_cast<int>(place.height / (3.0 * theme.text_px))));
+  for (const double tick : ticks.major) {
+    const double depth = tick * unit.si;
     const double y = y_of(depth);
     if (y - 0.7 * size < place.y || y + 0.7 * size > place.y + place.height) continue;
     frame.items.emplace_back(line_item({place.x, y}, {place.x + 0.5 * size, y}, theme.axis, theme.line_px));
     // The surface's own label stands on its line.
     const double words_y = depth > 0.0 ? y : std::max(place.y + 0.6 * size, y - 0.8 * size);
-    TextItem text =
-        text_item({place.x + 0.7 * size, words_y}, tick_text(depth, ticks.decimals) + " m", size, theme.text);
+    TextItem text = text_item({place.x + 0.7 * size, words_y},
+                              fmt::format("{} {}", tick_text(tick, ticks.decimals), unit.name), size, theme.text);
     text.halo = theme.halo;
     frame.items.emplace_back(std::move(text));
   }

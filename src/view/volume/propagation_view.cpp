@@ -285,9 +285,7 @@ void add_footer(FrameDescription& frame, const Panels& panels, const Propagation
   const double em = theme.text_px;
   const double y = frame.size.height - 1.3 * em;
   const double most_m = std::min(12.0 * em, panels.grid.width) / scale.px_per_m;
-  const double power = std::pow(10.0, std::floor(std::log10(most_m)));
-  const double lead = most_m / power;
-  const double length_m = (lead >= 5.0 ? 5.0 : lead >= 2.0 ? 2.0 : 1.0) * power;
+  const double length_m = round_below(most_m, theme.units.length());
   const double x = panels.area.x;
   const double end = x + length_m * scale.px_per_m;
   frame.items.emplace_back(polyline_item({{x, y - 0.3 * em}, {x, y}, {end, y}, {end, y - 0.3 * em}}, false, theme.text,
@@ -305,7 +303,7 @@ void add_footer(FrameDescription& frame, const Panels& panels, const Propagation
   // The most that there is room for.
   const auto words_of = [&]() -> std::string {
     const bool above = style.aspect == MaskAspect::above;
-    std::string scale_words = fmt::format("{:g} m", length_m);
+    std::string scale_words = round_text(length_m, theme.units.length());
     for (const char* more :
          {above ? " · from above, bow up" : " · from the side, ship to the left; depths below the surface",
           above ? " · from above" : " · from the side, ship to the left", above ? " · above" : " · from the side"}) {

@@ -65,7 +65,9 @@ void add_contours(ContextScene& scene, const SeabedPatch& bed, double transducer
   for (float& depth : field.values) {
     if (!(depth > 0.0F)) depth = std::nanf("");  // land has none
   }
-  for (const double level : nice_ticks(low, high, kMostLines).major) {
+  const Unit unit = theme.units.length();
+  for (const double tick : nice_ticks(unit.of(low), unit.of(high), kMostLines).major) {
+    const double level = tick * unit.si;
     for (const ContourLine& line : contour_lines(field, level)) {
       const auto at = [&](std::size_t i) {
         const PixelPoint& p = line.points[i % line.points.size()];
@@ -139,9 +141,10 @@ double depth_under(const SeabedPatch& bed, double x_m, double y_m) {
   return along(iy) + (v - iy) * (along(iy + 1) - along(iy));
 }
 
-double seabed_line_step_m(const SeabedPatch& bed) {
+double seabed_line_step_m(const SeabedPatch& bed, const Units& units) {
   const auto span = depth_span(bed);
-  return span ? nice_ticks(span->first, span->second, kMostLines).step : 0.0;
+  const Unit unit = units.length();
+  return span ? nice_ticks(unit.of(span->first), unit.of(span->second), kMostLines).step * unit.si : 0.0;
 }
 
 ColourMap seabed_colours() {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <random>
 #include <set>
 #include <string>
@@ -57,6 +58,30 @@ class RandomCameras {
   Camera overview_;
   std::mt19937 random_{20200104};
 };
+
+// By hand: fan 4 looks down 30 degrees, beam 3 to port; samples are 5 m long, so that the 20th begins at 97.5 m, and the
+// record ends at 200 m. Another beam whose shadow begins at the record's end has none.
+TEST(Shadow, LiesAlongItsBeamsUpToTheRecordsEnd) {
+  const Sector sector = slice_example::hand_sector();
+  ContextParams params = nothing_else();
+  EXPECT_TRUE(context_scene(sector, params, light_theme(kSize)).lines.empty());
+  std::vector<int> from(56, 41);
+  from[4 * 7 + 3] = 20;
+  params.shadow_from = std::make_shared<const std::vector<int>>(from);
+  const ContextScene scene = context_scene(sector, params, light_theme(kSize));
+  double nearest_m = 1e9;
+  double farthest_m = 0.0;
+  for (const SceneLine& line : scene.lines) {
+    for (const Point<Sonar>& end : {line.from, line.to}) {
+      EXPECT_NEAR(end.x, 0.0, 1e-9);
+      EXPECT_NEAR(end.z / -end.y, std::tan(rad_from_deg(30.0)), 1e-9);
+      nearest_m = std::min(nearest_m, norm(end));
+      farthest_m = std::max(farthest_m, norm(end));
+    }
+  }
+  EXPECT_NEAR(nearest_m, 97.5, 1e-9);
+  EXPECT_NEAR(farthest_m, 200.0, 1e-9);
+}
 
 // By hand: the mask's middle is fan 4 (-30 degrees), beam 3 (270), 20 samples of 5 m: 100 m to port, 50 m below the sonar
 // and 86.6 m away. The surface is 7 m above the sonar; a bed of 120 m lies 113 m below it.

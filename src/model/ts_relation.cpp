@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "school/strength/ts_relation.h"
+#include "model/ts_relation.h"
 
 #include "base/units.h"
 

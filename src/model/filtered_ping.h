@@ -11,7 +11,6 @@
 #include "geo/frames.h"
 #include "model/mask.h"
 #include "model/volume.h"
-#include "school/runs.h"
 
 namespace sonar {
 

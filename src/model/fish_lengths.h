@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "model/school.h"
-#include "school/strength/ts_relation.h"
+#include "model/ts_relation.h"
 
 namespace sonar {
 

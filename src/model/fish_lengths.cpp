@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "school/strength/fish_lengths.h"
+#include "model/fish_lengths.h"
 
 #include <cmath>
 

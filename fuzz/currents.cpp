@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "io/fuzz_currents.h"
+#include "scratch_folder.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const sonar::fuzz::ScratchFolder folder("currents");
+  sonar::fuzz::currents(std::as_bytes(std::span(data, size)), folder.path());
+  return 0;
+}

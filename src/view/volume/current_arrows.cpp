@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/volume/current_arrows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/units.h"
+#include "view/axes.h"
+#include "view/colour_map.h"
+#include "view/volume/context_layout.h"
+
+namespace sonar {
+namespace {
+
+constexpr double kLongest = 0.25;     ///< of the range
+constexpr double kHead = 0.3;         ///< of an arrow's length
+constexpr double kLeast_mps = 0.005;  ///< slower water has no direction
+constexpr int kMostArrows = 15;
+
+/// The largest of 1, 2 and 5 times a power of ten that is no larger.
+double whole_below(double value) {
+  const double rounded_up = value * (1.0 + 1e-9);  // 4.999... is five
+  const double power = std::pow(10.0, std::floor(std::log10(rounded_up)));
+  const double digits = rounded_up / power;
+  return power * (digits >= 5.0 ? 5.0 : digits >= 2.0 ? 2.0 : 1.0);
+}
+
+}  // namespace
+
+std::vector<double> current_depths(const Sector& sector, double transducer_depth_m) {
+  const double below_m = std::max(0.0, -std::sin(sector.elevation_rad(0)) * far_range_m(sector));
+  const double deepest_m = transducer_depth_m + below_m;
+  std::vector<double> out;
+  for (const double depth_m : nice_ticks(0.0, std::max(deepest_m, 1.0), kMostArrows).major) {
+    if (depth_m > 0.0 && depth_m <= deepest_m) out.push_back(depth_m);
+  }
+  return out;
+}
+
+std::optional<CurrentScale> current_scale(const Sector& sector, const CurrentColumn& column) {
+  if (!(column.fastest_mps >= kLeast_mps)) return std::nullopt;
+  const double metres_per_mps = whole_below(kLongest * far_range_m(sector) / column.fastest_mps);
+  const double speed_mps = whole_below(column.fastest_mps);
+  return CurrentScale{speed_mps, speed_mps * metres_per_mps};
+}
+
+std::string current_words(const Sector& sector, const CurrentColumn& column, const std::optional<double>& heading_deg) {
+  if (current_arrows(sector, column, heading_deg, 0.0).empty()) return {};
+  const auto scale = current_scale(sector, column);
+  return fmt::format("current below the ship: {:g} m/s is {:g} m long", scale->speed_mps, scale->length_m);
+}
+
+std::vector<CurrentArrow> current_arrows(const Sector& sector, const CurrentColumn& column,
+                                         const std::optional<double>& heading_deg, double transducer_depth_m) {
+  std::vector<CurrentArrow> out;
+  const auto scale = current_scale(sector, column);
+  if (!scale || !heading_deg) return out;
+  const double metres_per_mps = scale->length_m / scale->speed_mps;
+  for (const CurrentAt& current : column.at) {
+    if (std::hypot(current.east_mps, current.north_mps) < kLeast_mps) continue;
+    const Point<Sonar> from{0.0, 0.0, current.depth_m - transducer_depth_m};
+    const Point<Enu> way{current.east_mps * metres_per_mps, current.north_mps * metres_per_mps, 0.0};
+    out.push_back({from, from + to_sonar(way, rad_from_deg(*heading_deg)), current.depth_m});
+  }
+  return out;
+}
+
+Rgba8 current_colour() { return colour_map(ColourMapName::viridis).at(0.5); }
+
+void add_current_arrows(ContextScene& scene, const std::vector<CurrentArrow>& arrows, double transducer_depth_m,
+                        const Theme& theme) {
+  if (arrows.empty()) return;
+  const Rgba8 colour = current_colour();
+  const double width_px = 2.0 * theme.line_px;
+  add_straight(scene, {0.0, 0.0, -transducer_depth_m}, arrows.back().from, colour, theme.line_px);
+  for (const CurrentArrow& arrow : arrows) {
+    add_straight(scene, arrow.from, arrow.to, colour, width_px);
+    const Point<Sonar> back = (arrow.from - arrow.to) * kHead;
+    // Level barbs and upright ones: seen from above and from the side it stays an arrow.
+    const std::array<Point<Sonar>, 4> sides{{{-0.5 * back.y, 0.5 * back.x, 0.0},
+                                             {0.5 * back.y, -0.5 * back.x, 0.0},
+                                             {0.0, 0.0, 0.5 * norm(back)},
+                                             {0.0, 0.0, -0.5 * norm(back)}}};
+    for (const Point<Sonar>& side : sides) scene.lines.push_back({arrow.to, arrow.to + back + side, colour, width_px});
+  }
+}
+
+}  // namespace sonar

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geo/frames.h"
+#include "geo/sector.h"
+#include "model/current.h"
+#include "view/theme.h"
+
+namespace sonar {
+
+struct ContextScene;
+
+/// The water's velocity below the ship at one time.
+struct CurrentColumn {
+  std::vector<CurrentAt> at;  ///< by rising depth below the sea surface; depths of which nothing is told are left out
+  double fastest_mps = 0.0;   ///< of all that is known: arrows are as long for one speed in every ping
+  friend bool operator==(const CurrentColumn&, const CurrentColumn&) = default;
+};
+
+/// Depths at which arrows stand: even ones, at most 15 down to the sector's deepest place, m below the sea surface.
+[[nodiscard]] std::vector<double> current_depths(const Sector& sector, double transducer_depth_m);
+
+/// How long a speed is drawn: whole ones, twos or fives, the fastest no longer than a quarter of the range.
+struct CurrentScale {
+  double speed_mps = 0.0;
+  double length_m = 0.0;  ///< of an arrow at that speed
+};
+/// Empty where nothing moves.
+[[nodiscard]] std::optional<CurrentScale> current_scale(const Sector& sector, const CurrentColumn& column);
+/// For the legend: "current below the ship: 0.2 m/s is 50 m long"; empty where no arrow is drawn.
+[[nodiscard]] std::string current_words(const Sector& sector, const CurrentColumn& column,
+                                        const std::optional<double>& heading_deg);
+
+struct CurrentArrow {
+  Point<Sonar> from;  ///< straight below the ship, at the depth
+  Point<Sonar> to;    ///< where the water flows to, level with it
+  double depth_m = 0.0;
+};
+/// Turned into the ship's frame by its true heading; none where that is unknown, and none of water that has no direction.
+[[nodiscard]] std::vector<CurrentArrow> current_arrows(const Sector& sector, const CurrentColumn& column,
+                                                       const std::optional<double>& heading_deg,
+                                                       double transducer_depth_m);
+
+[[nodiscard]] Rgba8 current_colour();
+/// The arrows, on a thin line from the sea surface down to the deepest.
+void add_current_arrows(ContextScene& scene, const std::vector<CurrentArrow>& arrows, double transducer_depth_m,
+                        const Theme& theme);
+
+}  // namespace sonar
