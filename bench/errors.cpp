@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// sonar_bench_errors [BODIES [LOOKS [PINGS [SEED [FADING]]]]]: whether the standard errors of schools tell how schools scatter. Random
-// bodies (ellipsoids, bent and hollow ones), each looked at LOOKS times in PINGS pings, are masked by the program's own growth
-// from the body's loudest voxel of the look, and measured. What is measured meets other errors too, drawn anew for each look: of
-// the threshold, the calibration, the sound speed and the tilt, as large as the recipe's. Truth is the mean of what 30 other looks
-// are measured as without these: the band tells how well a figure can be repeated, and not how far off a mask is from the school.
-// No look is left out. For each column: the looks whose figure has a band and those where it has none, the share of looks whose 95 % band holds the truth, 95 % limits of that share (Wilson,
-// looks taken as independent), and the root of mean squares of told over true errors by fading. FADING: own (each fan has its frequency)
-// or shared (all fans one). Ends with 1 where the limits of a column lie outside 93 to 97 %.
+// sonar_bench_errors [BODIES [LOOKS [PINGS [SEED [FADING]]]]]: whether the standard errors of schools tell how schools scatter.
+// Random bodies (ellipsoids, bent and hollow ones), each looked at LOOKS times in PINGS pings, are masked by the program's own
+// growth from the body's loudest voxel of the look, and measured. What is measured meets other errors too, drawn anew for each
+// look: of the threshold, the calibration, the sound speed and the tilt, as large as the recipe's. Truth is the mean of what 30
+// other looks are measured as without these: the band tells how well a figure can be repeated, and not how far off a mask is
+// from the school. No look is left out. For each column: the looks whose figure has a band and those where it has none, the
+// share of looks whose 95 % band holds the truth, 95 % limits of that share (Wilson, looks taken as independent), and the root
+// of mean squares of told over true errors by fading. FADING: own (each fan has its frequency) or shared (all fans one). Ends
+// with 1 where the limits of a column lie outside 93 to 97 %.
 #include <fmt/format.h>
 
 #include <array>
