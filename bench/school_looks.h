@@ -75,6 +75,7 @@ inline void add_point(Water& water, const Point<Sonar>& at, double backscatter_m
   const Sector& sector = water.sector;
   const double range = norm(at);
   const double elevation = std::asin(-at.z / range);
+  const double azimuth = std::atan2(at.y, at.x);
   const auto sample = static_cast<int>(std::lround(sector.range().sample_at(range)));
   if (sample < 0 || sample >= sector.range().count) return;
   const double beam_sr = 2.0 * std::numbers::pi * sigma_v * sigma_h;
@@ -83,7 +84,7 @@ inline void add_point(Water& water, const Point<Sonar>& at, double backscatter_m
     const double up = (elevation - sector.elevation_rad(f)) / sigma_v;
     if (std::abs(up) > kReach) continue;
     for (int b = 0; b < sector.beams(); ++b) {
-      const double off = std::remainder(std::atan2(at.y, at.x) - sector.azimuth_rad(b), 2.0 * std::numbers::pi);
+      const double off = std::remainder(azimuth - sector.azimuth_rad(b), 2.0 * std::numbers::pi);
       const double aside = off * std::cos(elevation) / sigma_h;
       if (std::abs(aside) > kReach) continue;
       water.expected(f, b, sample) +=

@@ -97,6 +97,8 @@ int power_of_sound_speed(const ErrorColumn& column) {
   return column.unit == "m3" ? 3 : 0;
 }
 
+/// Of so many repeats none may show what happens in one look of twenty.
+bool is_count(std::string_view figure) { return figure.starts_with("n_") || figure == "vacuole_fraction"; }
 bool is_depth(std::string_view figure) { return figure == "depth_m" || figure == "surface_distance_m"; }
 
 /// By what is alike in all pings, threshold apart.
@@ -179,7 +181,9 @@ FigureValues school_errors(std::span<const SchoolPingRow> rows, std::span<const 
     }
     const double by_threshold = 0.5 * (above[i] - below[i]);
     const double common = common_error(kErrorColumns[i], figures[i], school, params);
-    errors[i] = std::sqrt(std::pow(spread(known, fadings), 2) + by_threshold * by_threshold + common * common);
+    const double by_fading = spread(known, fadings);
+    if (is_count(kErrorColumns[i].figure) && by_fading == 0.0 && by_threshold == 0.0) continue;
+    errors[i] = std::sqrt(by_fading * by_fading + by_threshold * by_threshold + common * common);
   }
   return errors;
 }

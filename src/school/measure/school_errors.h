@@ -98,6 +98,7 @@ using Repeats = std::vector<std::array<float, kErrorCount>>;
 
 /// Standard errors of a school's figures, in the order of kErrorColumns; NaN = unknown. Fading differs from ping to ping;
 /// threshold, calibration, sound speed and tilt are alike in all.
+/// A count that no repeat changes has none: of 16, none may show what happens in one look of twenty.
 /// rows     of the school, rising time
 /// repeats  [row]
 [[nodiscard]] FigureValues school_errors(std::span<const SchoolPingRow> rows, std::span<const Repeats* const> repeats,
