@@ -59,7 +59,9 @@ constexpr std::array kExamples = {
     Examples{"import",
              "  sonarx export OUT --to echoview -o REGIONS     to be looked at and changed in Echoview\n"
              "  sonarx import SURVEY REGIONS/*.evr -o regions.jsonl --operator NAME\n"
-             "  sonarx run SURVEY -o NEW --session regions.jsonl\n"},
+             "  sonarx run SURVEY -o NEW --session regions.jsonl\n"
+             "  sonarx export OUT --to lsss --count-from 0 -o WORK     school masks as LSSS keeps them\n"
+             "  sonarx import SURVEY WORK/*.work -o masks.jsonl --count-from 0\n"},
     Examples{"export",
              "  sonarx export OUT --to csv -o TABLES\n  sonarx export OUT --to geojson -o MAP\n"
              "  sonarx export OUT --to raw-reduced --survey SURVEY -o SMALL\n"

@@ -13,9 +13,6 @@
 #include <pugixml.hpp>
 #include <string_view>
 #include <utility>
-
-#include "io/atomic_file.h"
-
 namespace sonar {
 namespace {
 
@@ -287,12 +284,6 @@ Result<std::vector<LsssSchool>> parse_lsss_work(std::string text, const std::str
     return refused(fmt::format("begins with {}, where schools is expected", quoted(root.name())));
   }
   return WorkReader(file, numbering).schools(root);
-}
-
-Result<std::vector<LsssSchool>> read_lsss_work(const std::filesystem::path& path, LsssNumbering numbering) {
-  auto text = read_file(path, kMostBytes);
-  if (!text) return pass_on(text);
-  return parse_lsss_work(std::move(*text), path.string(), numbering);
 }
 
 std::string main_species(const LsssSchool& school) {

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -59,9 +58,6 @@ struct LsssSchool {
 /// threads pure
 [[nodiscard]] Result<std::vector<LsssSchool>> parse_lsss_work(std::string text, const std::string& file,
                                                               LsssNumbering numbering);
-/// errors  also not_found, io
-[[nodiscard]] Result<std::vector<LsssSchool>> read_lsss_work(const std::filesystem::path& path,
-                                                             LsssNumbering numbering);
 
 /// The category with the largest share over all frequencies, as text; empty where a school has none.
 [[nodiscard]] std::string main_species(const LsssSchool& school);

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "io/atomic_file.h"
 #include "io/product_example.h"
 
 namespace sonar {
@@ -240,12 +239,6 @@ TEST(LsssWork, MasksArePlacedInTheObservationThatHasTheirPings) {
     EXPECT_THAT(to_line(refused.error()), HasSubstr(expected));
     EXPECT_THAT(to_line(refused.error()), HasSubstr("a.work: school 1: ping of 1970-01-01T00:00:01.000Z: "));
   }
-}
-
-TEST(LsssWork, AFileThatIsNotThereIsNamed) {
-  const auto read = read_lsss_work("/nowhere/a.work", from_one);
-  ASSERT_FALSE(read);
-  EXPECT_EQ(read.error().code, ErrorCode::not_found);
 }
 
 }  // namespace

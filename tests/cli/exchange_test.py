@@ -407,12 +407,28 @@ class Lsss(Case):
     def test_the_numbering_belongs_to_it(self):
         self.one_line_error("export", OUT, "--to", "csv", "--count-from", "0", "-o", self.fresh("export-lsss-none"), code=2,
                             names="--count-from: belongs to --to lsss")
+
+    def test_masks_come_back_voxel_by_voxel(self):
+        folder = self.fresh("import-lsss")
+        self.sonarx("export", OUT, "--to", "lsss", "--count-from", "0", "-o", folder)
+        work, journal = folder / "obs-0001.work", folder / "masks.jsonl"
+        voxels = list(work_voxels(work, 0))
+        said = self.sonarx("import", SURVEY, work, "-o", journal, "--count-from", "0")
+        schools = len({school for school, *_ in voxels})
+        self.assertRegex(said, rf": {schools} schools?, {len(voxels)} voxels, 0 marks, 0 bad intervals\n$")
+        lines = [json.loads(line) for line in journal.read_text().splitlines()[1:]]
+        brushed = sorted((line["ping_time"] // 100 + 116444736 * 10**9, channel, sample)
+                         for line in lines for channel, first, count in line["args"].get("runs", ())
+                         for sample in range(first, first + count))
+        self.assertEqual(brushed, sorted(voxel[1:] for voxel in voxels))
+
+
 class EchoviewBack(Case):
     """A journal of what was exported, and pictures of lines."""
     def test_regions_come_back_as_the_schools_that_they_were(self):
         folder = self.fresh("import-echoview")
         self.sonarx("export", OUT, "--to", "echoview", "-o", folder)
-        journal, recipe = folder / "regions.jsonl", folder / "R.json"
+        journal = folder / "regions.jsonl"
         files = sorted(folder.glob("obs-0001-fan-*.evr"))
         schools = [r for r in sonarx.read_csv(OUT / "schools.csv") if (r["observation"], r["status"]) == ("obs-0001", "unreviewed")]
         rows = [r for r in sonarx.read_csv(OUT / "school_pings.csv")
@@ -433,8 +449,8 @@ class EchoviewBack(Case):
         brushed = sum(count for line in lines if line["cmd"] == "brush" for _, _, count in line["args"]["runs"])
         self.assertEqual((sum(cells.values()), brushed), (voxels, voxels))
         self.assertEqual({line["operator"] for line in lines}, {"somebody"})
-        recipe.write_text(self.sonarx("recipe", "--preset", "default").replace('"automatic": true', '"automatic": false'))
-        self.sonarx("run", SURVEY, "-o", folder / "out", "--session", journal, "--recipe", recipe, "--only", "obs-0001")
+        # Schools of the files are all that there are: the journal's recipe looks for no others.
+        self.sonarx("run", SURVEY, "-o", folder / "out", "--session", journal, "--only", "obs-0001")
         again = sonarx.read_csv(folder / "out" / "school_pings.csv")
         same = ("ping_index", "n_voxels", "n_beams", "n_fans", "range_m")
         self.assertEqual(sorted([r[c] for c in same[:4]] for r in again), sorted([r[c] for c in same[:4]] for r in rows))
@@ -459,7 +475,9 @@ class EchoviewBack(Case):
         self.assertIn("0 schools, 0 voxels, 1 mark, 1 bad interval", said)
         self.assertEqual([re.sub(r"^note import-left-out: .*region (\w+): .*", r"\1", line) for line in told.splitlines()],
                          ["part", "late"])
-        self.assertEqual([json.loads(line)["cmd"] for line in (folder / "a.jsonl").read_text().splitlines()[1:]], ["event", "bad_ping"])
+        head, *lines = [json.loads(line) for line in (folder / "a.jsonl").read_text().splitlines()]
+        self.assertEqual([line["cmd"] for line in lines], ["event", "bad_ping"])
+        self.assertTrue(head["recipe"]["automatic"], "without schools in the file they are looked for")
         evr.write_bytes(regions(("school", [f"{time} 30", f"{time} 40"], 1)))
         self.one_line_error("import", SURVEY, evr, "-o", folder / "b.jsonl", code=2, names="its notes name no fan")
         self.one_line_error("import", SURVEY, evr, "-o", SURVEY / "b.jsonl", "--fan", "3", code=2, names="raw files")

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -22,6 +23,9 @@ namespace sonar {
 
 // What a human may do, one struct a journal command. A line's ping_time is the ping that it was done on; schools are
 // named by any one of their voxels. Each struct holds the outcome of a choice, never the way to it.
+
+/// Most bytes of a text that a human gives, which is one line without control characters.
+inline constexpr std::size_t kMostTextBytes = 4096;
 
 /// Voxels of one channel, by their lasting keys.
 struct RunKey {

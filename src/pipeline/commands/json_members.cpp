@@ -17,7 +17,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::int64_t kMostInt = std::numeric_limits<int>::max();
-constexpr std::size_t kMostText = 4096;
 
 tl::unexpected<Error> expected(const Member& from, std::string_view what) {
   return fail(ErrorCode::format, fmt::format("{}: expected {}", from.name, what));
@@ -79,8 +78,8 @@ Result<void> read(const Member& from, bool& to) {
 Result<void> read(const Member& from, std::string& to) {
   if (from.value == nullptr || !from.value->is_string()) return expected(from, "a text");
   auto text = from.value->get<std::string>();
-  if (text.size() > kMostText) {
-    return fail(ErrorCode::bad_parameter, fmt::format("{}: is longer than {} bytes", from.name, kMostText));
+  if (text.size() > kMostTextBytes) {
+    return fail(ErrorCode::bad_parameter, fmt::format("{}: is longer than {} bytes", from.name, kMostTextBytes));
   }
   if (std::any_of(text.begin(), text.end(), is_control)) {
     return fail(ErrorCode::bad_parameter, from.name + ": expected one line without control characters");

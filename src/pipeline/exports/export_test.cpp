@@ -68,7 +68,9 @@ TEST_F(Export, lsss_has_the_times_of_the_datagrams) {
   ASSERT_TRUE(write_product(p, folder_ / "out" / "products" / "obs-0001.nc"));
   const auto written = run("lsss");
   ASSERT_TRUE(written) << to_line(written.error());
-  const auto schools = read_lsss_work(folder_ / "lsss" / "obs-0001.work", LsssNumbering::from_one);
+  const auto text = read_file(folder_ / "lsss" / "obs-0001.work");
+  ASSERT_TRUE(text) << to_line(text.error());
+  const auto schools = parse_lsss_work(*text, "obs-0001.work", LsssNumbering::from_one);
   ASSERT_TRUE(schools) << to_line(schools.error());
   EXPECT_EQ(schools->at(0).pings.at(0).time, example::kStart + 2'500'000'000);
 }

@@ -17,6 +17,8 @@
 namespace sonar {
 namespace {
 
+constexpr std::uint64_t kMostBytes = 256U << 20U;
+
 constexpr std::array kFormats{
     ImportFormat{".evr", "regions of Echoview", import_evr},
     ImportFormat{".work", "school masks of LSSS", import_lsss},
@@ -49,7 +51,9 @@ std::optional<Decision> decision_of(const ImportedSchool& school, const SchoolKe
   return decision;
 }
 
-Journal head_of(const SurveyFiles& survey, const Recipe& recipe) {
+Journal head_of(const SurveyFiles& survey, Recipe recipe, const Imported& imported) {
+  // Schools that files hold are all that there are, as in a window's journal. Where files hold none, they are looked for.
+  if (!imported.schools.empty()) recipe.automatic = false;
   Journal head;
   head.recipe_hash = recipe_hash(recipe);
   head.recipe = recipe_text(recipe);
@@ -131,7 +135,7 @@ Result<void> import_file(const std::filesystem::path& file, const ImportPlace& p
     }
     return fail(ErrorCode::usage, "expected a name that ends in " + endings, {file.string()});
   }
-  const auto text = read_file(file);
+  const auto text = read_file(file, kMostBytes);
   if (!text) return pass_on(text);
   return format->read(*text, file.string(), place, imported);
 }
@@ -172,7 +176,7 @@ Result<SchoolLines> school_lines(const ImportedSchool& school, const CommandCont
 Result<ImportedJournal> import_journal(const SurveyFiles& survey, const Recipe& recipe, const Imported& imported,
                                        const ImportedBy& by, Work& work) {
   ImportedJournal made;
-  made.journal = head_of(survey, recipe);
+  made.journal = head_of(survey, recipe, imported);
   made.left_out = imported.left_out;
   std::map<std::size_t, std::vector<const ImportedSchool*>> of_observation;
   for (const ImportedSchool& school : imported.schools) of_observation[school.observation].push_back(&school);

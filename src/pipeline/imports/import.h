@@ -73,7 +73,8 @@ struct ImportFormat {
 [[nodiscard]] std::span<const ImportFormat> import_formats();
 
 /// Adds what a file says.
-/// errors  usage: no such ending; not_found, io; as the format's
+/// file    at most 256 MB
+/// errors  usage: no such ending; not_found, io, format; as the format's
 [[nodiscard]] Result<void> import_file(const std::filesystem::path& file, const ImportPlace& place, Imported& imported);
 
 /// Who imports, and when.
@@ -103,6 +104,7 @@ struct ImportedJournal {
   std::vector<std::string> left_out;  ///< a line each
 };
 /// A journal of everything that was imported. Pings of schools are read, as a brush takes only voxels that can belong to one.
+/// Where there are schools, the journal's recipe looks for no others.
 /// errors  not_found, io: of pings; cancelled
 [[nodiscard]] Result<ImportedJournal> import_journal(const SurveyFiles& survey, const Recipe& recipe,
                                                      const Imported& imported, const ImportedBy& by, Work& work);

@@ -25,6 +25,13 @@ constexpr std::array<std::string_view, 2> kNoClass{"Unclassified regions", kNoSp
 
 TimeNs rounded(TimeNs time) { return time - time % kTickNs; }
 
+/// "obs-0001/3": what an export calls a region, which is no name of a school.
+bool is_of_export(std::string_view name) {
+  const std::size_t slash = name.rfind('/');
+  const bool numbered = slash != std::string_view::npos && slash + 1 < name.size();
+  return numbered && name.find_first_not_of("0123456789", slash + 1) == std::string_view::npos;
+}
+
 /// Pings of an observation, from the first to before the end.
 struct PingSpan {
   std::int64_t first = 0;
@@ -163,6 +170,17 @@ class Regions {
   [[nodiscard]] const ObservationFiles& observation(std::size_t index) const {
     return place_.survey->observations[index];
   }
+  /// As a journal takes it: one line, no longer than it may be.
+  std::string text_of(const EchoviewRegion& region, std::string text) {
+    std::ranges::replace(text, '\t', ' ');
+    if (text.size() <= kMostTextBytes) return text;
+    const auto is_inside_character = [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; };
+    std::size_t end = kMostTextBytes;
+    while (end > 0 && is_inside_character(text[end])) --end;
+    text.resize(end);
+    leave_out(region, fmt::format("its text beyond {} bytes", kMostTextBytes));
+    return text;
+  }
 
   Result<void> add_school(const EchoviewRegion& region) {
     const auto told = cells_of(region, file_);
@@ -180,23 +198,27 @@ class Regions {
       }
       if (school.pings.empty()) continue;
       empty = false;
-      add_to(imported_.school(ours ? region.name : std::string{}, index), region, told->words, std::move(school.pings));
-      // The name that an export gives is no name of a school.
-      if (!ours) imported_.schools.back().name = region.name;
+      add_to(imported_.school(ours ? region.name : std::string{}, index), region, *told, std::move(school.pings));
     }
     if (empty) leave_out(region, "no sample of the survey lies in it");
     return {};
   }
 
-  static void add_to(ImportedSchool& school, const EchoviewRegion& region, const std::string& words,
-                     std::map<std::int64_t, std::vector<RunKey>> pings) {
+  void add_to(ImportedSchool& school, const EchoviewRegion& region, const EchoviewCells& told,
+              std::map<std::int64_t, std::vector<RunKey>> pings) {
     for (auto& [ping, runs] : pings) {
       auto& all = school.pings[ping];
       all.insert(all.end(), runs.begin(), runs.end());
     }
-    if (std::ranges::find(kNoClass, region.region_class) == kNoClass.end()) school.species = region.region_class;
+    if (std::ranges::find(kNoClass, region.region_class) == kNoClass.end()) {
+      school.species = text_of(region, region.region_class);
+    }
+    const bool named_by_export = !told.pings.empty() && is_of_export(region.name);
+    if (!named_by_export) school.name = text_of(region, region.name);
+    const std::string words = text_of(region, told.words);
     // Of a school in several fans each may say the same.
-    if (school.comment.find(words) == std::string::npos) school.comment += (school.comment.empty() ? "" : "; ") + words;
+    if (school.comment.find(words) != std::string::npos) return;
+    school.comment = text_of(region, school.comment + (school.comment.empty() ? "" : "; ") + words);
   }
 
   void add_mark(const EchoviewRegion& region) {
@@ -210,7 +232,7 @@ class Regions {
       // What the format rounded away must not put a mark before the first ping.
       const TimeNs offset = pings.front().time - place_.survey->ping_time(observation(index), 0);
       const TimeNs first = place_.survey->ping_time(observation(index), 0);
-      imported_.events.push_back({"other", std::max(first, time - offset), text});
+      imported_.events.push_back({"other", std::max(first, time - offset), text_of(region, text)});
       return;
     }
     leave_out(region, "no observation of the survey was made at its time");

@@ -31,10 +31,10 @@ Result<void> import_lsss(const std::string& text, const std::string& file, const
     }
   }
   for (std::size_t i = 0; i < schools->size(); ++i) {
-    const std::size_t elsewhere = (*schools)[i].pings.size() - pings_placed[i];
-    if (elsewhere == 0) continue;
-    imported.left_out.push_back(
-        fmt::format("{}: school {}: {} that the survey does not have", file, i + 1, count_of(elsewhere, "ping")));
+    const std::size_t pings = (*schools)[i].pings.size();
+    if (pings_placed[i] >= pings) continue;  // one that two observations have is placed in both
+    imported.left_out.push_back(fmt::format("{}: school {}: {} that the survey does not have", printable(file), i + 1,
+                                            count_of(pings - pings_placed[i], "ping")));
   }
   return {};
 }

@@ -291,6 +291,9 @@ TEST_F(Import, AnOutlineThatWasChangedElsewhereIsFollowed) {
   }
   EXPECT_EQ(voxels_of(state.schools[0]->masks), expected);
   EXPECT_EQ(state.schools[0]->masks.decided.name, "") << "the name of an export is none";
+  const JournalState renamed = carried_out(read(evr({region(1, box(2, 3, near_m, far_m), "north wall", notes)})));
+  ASSERT_EQ(renamed.schools.size(), 1U);
+  EXPECT_EQ(renamed.schools[0]->masks.decided.name, "north wall");
 }
 
 TEST_F(Import, MarksAndBadPingsAreOnTheClockOfTheDatagrams) {
@@ -337,13 +340,26 @@ TEST_F(Import, ARegionThatSaysTooLittleOrTooMuchIsRefused) {
 
 TEST_F(Import, TheJournalIsReadBack) {
   place_.fan = 2;
-  const Imported imported = read(evr({region(1, box(2, 4, 10.0, 20.0))}));
+  // A journal takes texts of one line and of up to 4096 bytes; of two bytes is each letter behind the first.
+  std::string letters = "x";
+  for (int i = 0; i < 2100; ++i) letters += "\xC3\xA5";
+  const Imported imported = read(evr({region(1, box(2, 4, 10.0, 20.0), "north\twall", {"dense\tat", letters}, "a\tb"),
+                                      region(2, {{shown_time(1), 5.0}}, "haul\t12", {letters})}));
+  EXPECT_THAT(imported.left_out, ElementsAre(HasSubstr("line 4: region north?wall: its text beyond 4096 bytes"),
+                                             HasSubstr("region haul?12: its text beyond 4096 bytes")));
   ImportedJournal made;
   made.journal.lines = school_lines(imported.schools[0], sea_.context(), {"someone", kBegin}, 1)->lines;
   const auto journal = parse_journal(journal_text(made.journal), "a.jsonl");
   ASSERT_TRUE(journal.has_value());
   EXPECT_THAT(journal->diagnostics, IsEmpty());
-  EXPECT_EQ(told(fold(effective_lines(journal->lines), {}, sea_.context())), told(carried_out(imported)));
+  const JournalState state = fold(effective_lines(journal->lines), {}, sea_.context());
+  EXPECT_EQ(told(state), told(carried_out(imported)));
+  EXPECT_THAT(state.notes, IsEmpty()) << "every line can be carried out";
+  const SchoolRow& row = state.schools.at(0)->masks.decided;
+  EXPECT_EQ(std::tuple(row.name, row.species), std::tuple("north wall", "a b"));
+  EXPECT_EQ(row.comment, "dense at; " + letters.substr(0, 4085)) << "cut between letters";
+  ASSERT_EQ(imported.events.size(), 1U);
+  EXPECT_TRUE(act_of(line_of({1, kBegin, "", kBegin, imported.events[0]})).has_value());
 }
 
 TEST_F(Import, FilesAreKnownByTheirEndings) {
