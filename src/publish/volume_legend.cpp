@@ -37,7 +37,7 @@ void add_surroundings(std::vector<LegendRow>& rows, const VolumeFigure& figure, 
   if (figure.shadow_from) rows.push_back({whole_line, shadow_colour(theme), "in the shadow of schools"});
   const double heading_deg = figure.navigation.heading_deg;
   const auto turned = std::isnan(heading_deg) ? std::nullopt : std::optional(heading_deg);
-  const std::string current = current_words(figure.sector(), figure.currents, turned);
+  const std::string current = current_words(figure.sector(), figure.currents, turned, options.units);
   if (!current.empty()) rows.push_back({whole_line, current_colour(), current});
 }
 

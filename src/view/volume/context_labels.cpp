@@ -206,11 +206,11 @@ void label_slices(ContextLabels& labels, const Sector& sector, const ContextPara
 }
 
 /// Their depths, beside where they begin.
-void label_currents(ContextLabels& labels, const std::vector<CurrentArrow>& arrows, double far_m) {
+void label_currents(ContextLabels& labels, const std::vector<CurrentArrow>& arrows, double far_m, const Unit& unit) {
   for (const CurrentArrow& arrow : arrows) {
     const Point<Sonar> back = (arrow.from - arrow.to) * (0.05 * far_m / norm(arrow.to - arrow.from));
     labels.add({arrow.from, arrow.from + Point<Sonar>{0.0, 0.0, 0.02 * far_m}, arrow.from + back},
-               fmt::format("{:g} m", arrow.depth_m));
+               round_text(arrow.depth_m, unit));
   }
 }
 
@@ -267,8 +267,9 @@ void add_context_labels(FrameDescription& frame, const Sector& sector, const Con
   if (params.depth_axis) label_depths(labels, depth_axis(sector, params), far_range_m(sector), z, unit);
   if (params.range_rings) label_bearings(labels, grid, params, z);
   label_slices(labels, sector, params);
-  label_currents(labels, current_arrows(sector, params.currents, params.heading_deg, params.transducer_depth_m),
-                 far_range_m(sector));
+  label_currents(labels,
+                 current_arrows(sector, params.currents, params.heading_deg, params.transducer_depth_m, params.units),
+                 far_range_m(sector), unit);
 }
 
 }  // namespace sonar

@@ -20,43 +20,42 @@ constexpr double kHead = 0.3;         ///< of an arrow's length
 constexpr double kLeast_mps = 0.005;  ///< slower water has no direction
 constexpr int kMostArrows = 15;
 
-/// The largest of 1, 2 and 5 times a power of ten that is no larger.
-double whole_below(double value) {
-  const double rounded_up = value * (1.0 + 1e-9);  // 4.999... is five
-  const double power = std::pow(10.0, std::floor(std::log10(rounded_up)));
-  const double digits = rounded_up / power;
-  return power * (digits >= 5.0 ? 5.0 : digits >= 2.0 ? 2.0 : 1.0);
-}
-
 }  // namespace
 
-std::vector<double> current_depths(const Sector& sector, double transducer_depth_m) {
+std::vector<double> current_depths(const Sector& sector, double transducer_depth_m, const Units& units) {
   const double below_m = std::max(0.0, -std::sin(sector.elevation_rad(0)) * far_range_m(sector));
   const double deepest_m = transducer_depth_m + below_m;
   std::vector<double> out;
-  for (const double depth_m : nice_ticks(0.0, std::max(deepest_m, 1.0), kMostArrows).major) {
+  const Unit unit = units.length();
+  for (const double tick : nice_ticks(0.0, unit.of(std::max(deepest_m, 1.0)), kMostArrows).major) {
+    const double depth_m = tick * unit.si;
     if (depth_m > 0.0 && depth_m <= deepest_m) out.push_back(depth_m);
   }
   return out;
 }
 
-std::optional<CurrentScale> current_scale(const Sector& sector, const CurrentColumn& column) {
+std::optional<CurrentScale> current_scale(const Sector& sector, const CurrentColumn& column, const Units& units) {
   if (!(column.fastest_mps >= kLeast_mps)) return std::nullopt;
-  const double metres_per_mps = whole_below(kLongest * far_range_m(sector) / column.fastest_mps);
-  const double speed_mps = whole_below(column.fastest_mps);
+  const Unit speed = units.speed();
+  const Unit long_for_one{units.length().si / speed.si, {}};
+  const double metres_per_mps = round_below(kLongest * far_range_m(sector) / column.fastest_mps, long_for_one);
+  const double speed_mps = round_below(column.fastest_mps, speed);
   return CurrentScale{speed_mps, speed_mps * metres_per_mps};
 }
 
-std::string current_words(const Sector& sector, const CurrentColumn& column, const std::optional<double>& heading_deg) {
-  if (current_arrows(sector, column, heading_deg, 0.0).empty()) return {};
-  const auto scale = current_scale(sector, column);
-  return fmt::format("current below the ship: {:g} m/s is {:g} m long", scale->speed_mps, scale->length_m);
+std::string current_words(const Sector& sector, const CurrentColumn& column, const std::optional<double>& heading_deg,
+                          const Units& units) {
+  if (current_arrows(sector, column, heading_deg, 0.0, units).empty()) return {};
+  const auto scale = current_scale(sector, column, units);
+  return fmt::format("current below the ship: {} is {} long", round_text(scale->speed_mps, units.speed()),
+                     round_text(scale->length_m, units.length()));
 }
 
 std::vector<CurrentArrow> current_arrows(const Sector& sector, const CurrentColumn& column,
-                                         const std::optional<double>& heading_deg, double transducer_depth_m) {
+                                         const std::optional<double>& heading_deg, double transducer_depth_m,
+                                         const Units& units) {
   std::vector<CurrentArrow> out;
-  const auto scale = current_scale(sector, column);
+  const auto scale = current_scale(sector, column, units);
   if (!scale || !heading_deg) return out;
   const double metres_per_mps = scale->length_m / scale->speed_mps;
   for (const CurrentAt& current : column.at) {

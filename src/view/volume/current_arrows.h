@@ -9,6 +9,7 @@
 #include "geo/sector.h"
 #include "model/current.h"
 #include "view/theme.h"
+#include "view/units.h"
 
 namespace sonar {
 
@@ -21,19 +22,22 @@ struct CurrentColumn {
   friend bool operator==(const CurrentColumn&, const CurrentColumn&) = default;
 };
 
-/// Depths at which arrows stand: even ones, at most 15 down to the sector's deepest place, m below the sea surface.
-[[nodiscard]] std::vector<double> current_depths(const Sector& sector, double transducer_depth_m);
+/// Depths at which arrows stand: even ones of the unit of lengths, at most 15 down to the sector's deepest place, m below the
+/// sea surface.
+[[nodiscard]] std::vector<double> current_depths(const Sector& sector, double transducer_depth_m,
+                                                 const Units& units = {});
 
-/// How long a speed is drawn: whole ones, twos or fives, the fastest no longer than a quarter of the range.
+/// How long a speed is drawn: whole ones, twos or fives of the units, the fastest no longer than a quarter of the range.
 struct CurrentScale {
   double speed_mps = 0.0;
   double length_m = 0.0;  ///< of an arrow at that speed
 };
 /// Empty where nothing moves.
-[[nodiscard]] std::optional<CurrentScale> current_scale(const Sector& sector, const CurrentColumn& column);
+[[nodiscard]] std::optional<CurrentScale> current_scale(const Sector& sector, const CurrentColumn& column,
+                                                        const Units& units = {});
 /// For the legend: "current below the ship: 0.2 m/s is 50 m long"; empty where no arrow is drawn.
 [[nodiscard]] std::string current_words(const Sector& sector, const CurrentColumn& column,
-                                        const std::optional<double>& heading_deg);
+                                        const std::optional<double>& heading_deg, const Units& units = {});
 
 struct CurrentArrow {
   Point<Sonar> from;  ///< straight below the ship, at the depth
@@ -43,7 +47,7 @@ struct CurrentArrow {
 /// Turned into the ship's frame by its true heading; none where that is unknown, and none of water that has no direction.
 [[nodiscard]] std::vector<CurrentArrow> current_arrows(const Sector& sector, const CurrentColumn& column,
                                                        const std::optional<double>& heading_deg,
-                                                       double transducer_depth_m);
+                                                       double transducer_depth_m, const Units& units = {});
 
 [[nodiscard]] Rgba8 current_colour();
 /// The arrows, on a thin line from the sea surface down to the deepest.

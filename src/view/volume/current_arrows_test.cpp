@@ -79,6 +79,19 @@ TEST(CurrentArrows, TheLegendTellsTheScaleThatTheyAreDrawnTo) {
   }
 }
 
+// By hand: 0.4 m/s are 0.78 kn, a quarter of the range 164 ft; over each other 211, so 200 ft for 1 kn.
+TEST(CurrentArrows, AreRoundInTheUnitsThatAreRead) {
+  const Sector sector = slice_example::hand_sector();
+  const Units units{LengthUnit::feet, SpeedUnit::knots};
+  EXPECT_EQ(current_words(sector, two_layers(), 0.0, units), "current below the ship: 0.5 kn is 100 ft long");
+  const auto arrows = current_arrows(sector, two_layers(), 0.0, kTransducer_m, units);
+  EXPECT_NEAR(norm(arrows.at(0).to - arrows[0].from), 0.4 * 3600.0 / 1852.0 * 200.0 * 0.3048, 1e-9);
+  const std::vector<double> depths_m = current_depths(sector, kTransducer_m, units);
+  ASSERT_EQ(depths_m.size(), 12U) << "of 639 ft, every 50";
+  EXPECT_NEAR(depths_m.front(), 50.0 * 0.3048, 1e-9);
+  EXPECT_NEAR(depths_m.back(), 600.0 * 0.3048, 1e-9);
+}
+
 // Deepest is the fan at -70 degrees: 200 sin 70 + 7 = 194.9 m.
 TEST(CurrentArrows, StandAtEvenDepthsDownToTheDeepestPlace) {
   EXPECT_EQ(current_depths(slice_example::hand_sector(), kTransducer_m),
@@ -129,6 +142,11 @@ TEST(CurrentArrows, AreDrawnRoundTheVolumeAndLabelled) {
   std::vector<std::string> words;
   for (const auto& item : frame.items) words.push_back(std::get<TextItem>(item).text);
   EXPECT_EQ(words, (std::vector<std::string>{"20 m", "60 m"}));
+  params.units = {LengthUnit::feet, SpeedUnit::usual};
+  FrameDescription feet{kSize, {}, {}, {}};
+  add_context_labels(feet, sector, params, basis(overview(sector, kSize), kSize), light_theme(kSize));
+  ASSERT_FALSE(feet.items.empty());
+  for (const auto& item : feet.items) EXPECT_TRUE(std::get<TextItem>(item).text.ends_with(" ft"));
 }
 
 }  // namespace
