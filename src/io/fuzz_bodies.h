@@ -229,69 +229,71 @@ inline void evl(std::string_view text) {
     SONAR_CHECK(std::isfinite((*points)[i].depth_m));
     SONAR_CHECK(i == 0 || (*points)[i].time >= (*points)[i - 1].time);
   }
-  /// A head of a sealed file that says of its blocks what the choices say, under a right check sum.
-  inline std::vector<std::byte> forged_seal(std::string_view key, Choices & in) {
-    std::vector<std::byte> head;
-    for (const char c : std::string_view("SONARBLK")) head.push_back(static_cast<std::byte>(c));
-    const std::size_t blocks = in.byte() % 8;
-    const Hash128 of_key = hash_text(key);
-    for (const std::uint64_t number : {std::uint64_t{1}, static_cast<std::uint64_t>(blocks), of_key.high, of_key.low}) {
-      wire::put(head, number);
-    }
-    for (std::size_t i = 0; i < blocks; ++i) {
-      for (int number = 0; number < 3; ++number) wire::put(head, static_cast<std::uint64_t>(in.whole()));
-    }
-    const Hash128 sum = hash_bytes(head);
-    wire::put(head, sum.high);
-    wire::put(head, sum.low);
-    return head;
-  }
+}
 
-  /// A file of the cache is read as it was written or not at all, whatever of it was changed; what a right check sum says of
-  /// blocks that are not there is not believed.
-  /// folder  to write into
-  inline void sealed_file(std::span<const std::byte> bytes, const std::filesystem::path& folder) {
-    const std::string key = "fuzz";
-    const std::filesystem::path file = folder / "sealed";
-    const auto write = [&](std::span<const std::byte> all) {
-      std::ofstream out(file, std::ios::binary | std::ios::trunc);
-      out.write(reinterpret_cast<const char*>(all.data()), static_cast<std::streamsize>(all.size()));
-    };
-    const auto read_all = [&] {
-      std::vector<std::vector<std::byte>> read;
-      const auto opened = SealedFile::open(file, key);
-      for (std::size_t i = 0; opened && i <= opened->blocks(); ++i) {
-        if (auto block = opened->block(i)) read.push_back(std::move(*block));
-      }
-      return read;
-    };
-    Choices in(bytes);
-    std::vector<std::byte> forged = forged_seal(key, in);
-    forged.insert(forged.end(), bytes.begin(), bytes.end());
-    write(forged);
-    (void)read_all();
-    const std::vector<std::vector<std::byte>> blocks{{bytes.begin(), bytes.end()}, {}, {std::byte{7}}};
-    std::filesystem::remove(file);
-    SealedFile::store(file, key, blocks);
-    SONAR_CHECK(read_all() == blocks);
-    std::fstream change(file, std::ios::in | std::ios::out | std::ios::binary);
-    change.seekp(static_cast<std::streamoff>(in.below(static_cast<std::size_t>(std::filesystem::file_size(file)))));
-    change.put(static_cast<char>(in.byte()));
-    change.close();
-    for (const auto& block : read_all()) SONAR_CHECK(std::ranges::find(blocks, block) != blocks.end());
+/// A head of a sealed file that says of its blocks what the choices say, under a right check sum.
+inline std::vector<std::byte> forged_seal(std::string_view key, Choices& in) {
+  std::vector<std::byte> head;
+  for (const char c : std::string_view("SONARBLK")) head.push_back(static_cast<std::byte>(c));
+  const std::size_t blocks = in.byte() % 8;
+  const Hash128 of_key = hash_text(key);
+  for (const std::uint64_t number : {std::uint64_t{1}, static_cast<std::uint64_t>(blocks), of_key.high, of_key.low}) {
+    wire::put(head, number);
   }
+  for (std::size_t i = 0; i < blocks; ++i) {
+    for (int number = 0; number < 3; ++number) wire::put(head, static_cast<std::uint64_t>(in.whole()));
+  }
+  const Hash128 sum = hash_bytes(head);
+  wire::put(head, sum.high);
+  wire::put(head, sum.low);
+  return head;
+}
 
-  /// Whatever a reading child answers is something, within what was asked for, or nothing.
-  inline void wire(std::span<const std::byte> bytes) {
-    const auto texts = wire::decoded<std::vector<std::string>>(bytes);
-    if (texts) SONAR_CHECK(std::ranges::equal(wire::encoded(*texts), bytes));
-    const auto numbers = wire::decoded<std::vector<double>>(bytes);
-    SONAR_CHECK(numbers.has_value() == (bytes.size() % sizeof(double) == 0));
-    constexpr std::uint64_t kMost = 1000;
-    const auto child = ChildProcess::start([&](int stream) { (void)say_all(stream, bytes); }, "fuzz");
-    if (!child) return;
-    const auto said = wire::hear(*child, kMost);
-    if (said) SONAR_CHECK(said->size() <= kMost);
-  }
+/// A file of the cache is read as it was written or not at all, whatever of it was changed; what a right check sum says of
+/// blocks that are not there is not believed.
+/// folder  to write into
+inline void sealed_file(std::span<const std::byte> bytes, const std::filesystem::path& folder) {
+  const std::string key = "fuzz";
+  const std::filesystem::path file = folder / "sealed";
+  const auto write = [&](std::span<const std::byte> all) {
+    std::ofstream out(file, std::ios::binary | std::ios::trunc);
+    out.write(reinterpret_cast<const char*>(all.data()), static_cast<std::streamsize>(all.size()));
+  };
+  const auto read_all = [&] {
+    std::vector<std::vector<std::byte>> read;
+    const auto opened = SealedFile::open(file, key);
+    for (std::size_t i = 0; opened && i <= opened->blocks(); ++i) {
+      if (auto block = opened->block(i)) read.push_back(std::move(*block));
+    }
+    return read;
+  };
+  Choices in(bytes);
+  std::vector<std::byte> forged = forged_seal(key, in);
+  forged.insert(forged.end(), bytes.begin(), bytes.end());
+  write(forged);
+  (void)read_all();
+  const std::vector<std::vector<std::byte>> blocks{{bytes.begin(), bytes.end()}, {}, {std::byte{7}}};
+  std::filesystem::remove(file);
+  SealedFile::store(file, key, blocks);
+  SONAR_CHECK(read_all() == blocks);
+  std::fstream change(file, std::ios::in | std::ios::out | std::ios::binary);
+  change.seekp(static_cast<std::streamoff>(in.below(static_cast<std::size_t>(std::filesystem::file_size(file)))));
+  change.put(static_cast<char>(in.byte()));
+  change.close();
+  for (const auto& block : read_all()) SONAR_CHECK(std::ranges::find(blocks, block) != blocks.end());
+}
+
+/// Whatever a reading child answers is something, within what was asked for, or nothing.
+inline void wire(std::span<const std::byte> bytes) {
+  const auto texts = wire::decoded<std::vector<std::string>>(bytes);
+  if (texts) SONAR_CHECK(std::ranges::equal(wire::encoded(*texts), bytes));
+  const auto numbers = wire::decoded<std::vector<double>>(bytes);
+  SONAR_CHECK(numbers.has_value() == (bytes.size() % sizeof(double) == 0));
+  constexpr std::uint64_t kMost = 1000;
+  const auto child = ChildProcess::start([&](int stream) { (void)say_all(stream, bytes); }, "fuzz");
+  if (!child) return;
+  const auto said = wire::hear(*child, kMost);
+  if (said) SONAR_CHECK(said->size() <= kMost);
+}
 
 }  // namespace sonar::fuzz

@@ -38,10 +38,12 @@ ObservationOutlines school_outlines(const ObservationProduct& product, const Obs
   out.observation = product.observation;
   out.swept = kept.swept;
   std::optional<ProductPlacements> placements;
+  // Another recipe may bend otherwise.
+  const bool same_recipe = before != nullptr && before->recipe_json == product.recipe_json;
   for (const SchoolRow& school : product.schools) {
     const auto old = std::find_if(kept.schools.begin(), kept.schools.end(),
                                   [&](const auto& one) { return one.school_id == school.school_id; });
-    const bool stays = before != nullptr && old != kept.schools.end() && same_masks(*before, product, school.school_id);
+    const bool stays = same_recipe && old != kept.schools.end() && same_masks(*before, product, school.school_id);
     if (!stays && !placements) placements.emplace(product);
     out.schools.push_back(
         {school.school_id, stays ? old->area : school_outline(product, school.school_id, placements->rays())});

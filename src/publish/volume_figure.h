@@ -61,7 +61,8 @@ struct VolumeFigure {
 /// What arrows below the ship tell of the recipe's water velocities; none where the options want none, and without
 /// position or heading.
 [[nodiscard]] CurrentColumn volume_currents(const Recipe& recipe, const Sector& sector,
-                                            const PingNavigation& navigation, const PictureOptions& options);
+                                            const PingNavigation& navigation, const VolumeParams& params,
+                                            const Units& units = {});
 /// Whether drawn_volume() is the same for both.
 [[nodiscard]] bool same_volume(const PictureOptions& a, const PictureOptions& b);
 

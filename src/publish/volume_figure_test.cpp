@@ -186,8 +186,8 @@ TEST(VolumeFigure, ArrowsOfTheCurrentStandWhereItIsTold) {
   EXPECT_TRUE(told());
   options.volume.context = false;
   EXPECT_FALSE(told()) << "they stand round the volume";
-  PictureOptions off;
-  off.volume.current_arrows = false;
+  VolumeParams off;
+  off.current_arrows = false;
   EXPECT_EQ(volume_currents(recipe, sector, ship, off), CurrentColumn{});
   ship.heading_deg = kNaN;
   EXPECT_EQ(volume_currents(recipe, sector, ship, {}), CurrentColumn{}) << "nobody knows which way they point";

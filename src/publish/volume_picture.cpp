@@ -103,7 +103,7 @@ Result<VolumeFigure> prepare(DrawnObservation& observation, const PictureOptions
   if (auto placed = place_slices(out, *sector, *ping, options); !placed) return pass_on(placed);
   out.refused = drawn_refused(observation, *sector, ping->ping_index, options);
   out.navigation = ping->navigation;
-  out.currents = volume_currents(observation.recipe(), *sector, out.navigation, options);
+  out.currents = volume_currents(observation.recipe(), *sector, out.navigation, options.volume, options.units);
   take_trails(out, observation, *sector, ping->ping_index, options, place);
   out.samples = ping->staged != nullptr;
   out.searched = observation.has_product();

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -113,6 +115,27 @@ TEST_F(KeptMeasures, OfPingsWhoseMasksHaveChangedSinceAreMeasured) {
   keep_measured(kept_in, under, kept);
   open();
   for (const SchoolPingRow& row : rows()) EXPECT_NE(row.snr_db, 123.25) << row.ping_index;
+}
+
+TEST_F(KeptMeasures, OfAPingAreMeasuredAnewOnceAHumanErasesThere) {
+  open();
+  detect();
+  ASSERT_TRUE(document_->shown());
+  const SchoolMask mask = document_->product(0)->masks.at(document_->product(0)->masks.size() / 2);
+  const auto row_of_mask = [&] {
+    const auto all = rows();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const SchoolPingRow& row) {
+      return row.school_id == mask.school_id && row.ping_index == mask.ping_index;
+    });
+    return found == all.end() ? SchoolPingRow{} : *found;
+  };
+  const sonar::Run run = mask.mask.runs.at(0);
+  ASSERT_EQ(row_of_mask().n_voxels, static_cast<std::int64_t>(mask.mask.voxels()));
+  const auto& channels = document_->shown()->grid().channel;
+  document_->act(mask.ping_index,
+                 EraseCommand{{{channels[static_cast<std::size_t>(run.row)], run.first_sample, run.count}}, {}});
+  document_->settle();
+  EXPECT_EQ(row_of_mask().n_voxels, static_cast<std::int64_t>(mask.mask.voxels()) - run.count);
 }
 
 TEST_F(KeptMeasures, ThatAreDamagedOrOfAnotherRecipeAreMeasuredAnew) {

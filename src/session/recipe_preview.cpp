@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -55,7 +56,10 @@ std::shared_ptr<const PingBeforeDetection> ReadyPings::find(const Key& key) cons
 Result<std::shared_ptr<const PingBeforeDetection>> ReadyPings::made(const Key& key, const Recipe& recipe,
                                                                     const CancelToken& token) {
   constexpr std::size_t kMost = 2;
-  const std::scoped_lock one_at_a_time(making_);
+  std::unique_lock one_at_a_time(making_, std::defer_lock);
+  while (!one_at_a_time.try_lock_for(std::chrono::milliseconds(20))) {
+    if (token.cancelled()) return fail(ErrorCode::cancelled, "a later edit came");
+  }
   if (auto there = find(key)) return there;
   Work work(1);
   work.set_progress([&](std::string_view, std::int64_t, std::int64_t) {

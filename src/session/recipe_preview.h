@@ -35,13 +35,13 @@ class ReadyPings {
 
   /// Null where the ping is still to be made.
   [[nodiscard]] std::shared_ptr<const PingBeforeDetection> find(const Key& key) const;
-  /// Made where it is not there; others wait meanwhile.
+  /// Made where it is not there; others wait meanwhile, until they are cancelled.
   /// errors  as PingBeforeDetection::of()
   [[nodiscard]] Result<std::shared_ptr<const PingBeforeDetection>> made(const Key& key, const Recipe& recipe,
                                                                         const CancelToken& token);
 
  private:
-  std::mutex making_;
+  std::timed_mutex making_;
   mutable std::mutex mutex_;
   std::deque<std::pair<Key, std::shared_ptr<const PingBeforeDetection>>> kept_;
 };

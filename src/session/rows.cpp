@@ -5,7 +5,10 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <string_view>
+
+#include "session/lists/cells.h"
 
 namespace sonar {
 namespace {
@@ -104,15 +107,27 @@ bool cell_less(const Cell& a, const Cell& b, bool descending) {
 std::string tab_separated(const Rows& rows, const std::vector<std::size_t>& which) {
   std::string text;
   const auto& columns = rows.columns();
+  const auto title = [&](std::size_t c, const char* of) {
+    text += plain(columns[c].title + of + (columns[c].unit.empty() ? "" : " [" + columns[c].unit + "]"));
+  };
+  std::vector<bool> with_errors;
   for (std::size_t c = 0; c < columns.size(); ++c) {
+    with_errors.push_back(
+        std::ranges::any_of(which, [&](std::size_t row) { return std::isfinite(rows.cell(row, c).se); }));
     text += c == 0 ? "" : "\t";
-    text += plain(columns[c].unit.empty() ? columns[c].title : columns[c].title + " [" + columns[c].unit + "]");
+    title(c, "");
+    if (!with_errors[c]) continue;
+    text += '\t';
+    title(c, " standard error");
   }
   text += '\n';
   for (const std::size_t row : which) {
     for (std::size_t c = 0; c < columns.size(); ++c) {
+      const Cell cell = rows.cell(row, c);
+      const bool told = std::isfinite(cell.se);
       text += c == 0 ? "" : "\t";
-      text += plain(rows.cell(row, c).text);
+      text += plain(told ? cell.brief : cell.text);
+      if (with_errors[c]) text += "\t" + (told ? number_cell(cell.se, cell.decimals).text : std::string());
     }
     text += '\n';
   }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -19,6 +20,7 @@ struct Cell {
   std::variant<std::monostate, double, std::string> key;  ///< monostate: unknown, sorted last
   std::string brief = {};  ///< shown in the text's stead where lists are narrow; empty = the text
   int decimals = -1;       ///< that a number is written with; -1 = three significant digits
+  double se = std::numeric_limits<double>::quiet_NaN();  ///< of a number, told in the text; NaN = none is
 };
 
 struct ListColumn {
@@ -78,6 +80,7 @@ class Rows {
 [[nodiscard]] bool cell_less(const Cell& a, const Cell& b, bool descending);
 
 /// Cells with tabulators between and line ends behind, a title line first: what a spreadsheet takes from the clipboard.
+/// Standard errors stand in a column of their own behind their figures', where one of the rows has some: numbers stay numbers.
 [[nodiscard]] std::string tab_separated(const Rows& rows, const std::vector<std::size_t>& which);
 
 }  // namespace sonar

@@ -42,6 +42,23 @@ TEST(Rows, ASpreadsheetGetsTabsBetweenAndNoneWithin) {
   EXPECT_EQ(tab_separated(Fish(), {1, 2}), "Name\tDepth mean [m]\nBlue whiting\t120.0\nCod\t\n");
 }
 
+/// Depths of two schools; a run told the error of one.
+class Depths : public Rows {
+ public:
+  [[nodiscard]] const std::vector<ListColumn>& columns() const override { return columns_; }
+  [[nodiscard]] std::size_t rows() const override { return cells_.size(); }
+  [[nodiscard]] Cell cell(std::size_t row, std::size_t /*column*/) const override { return cells_[row]; }
+
+ private:
+  std::vector<ListColumn> columns_{{"Depth", "m", "", true}};
+  std::vector<Cell> cells_{with_error(number_cell(63.24, 1), 1.36), number_cell(9.5, 1)};
+};
+
+TEST(Rows, ASpreadsheetGetsNumbersAndTheirErrorsInColumnsOfTheirOwn) {
+  EXPECT_EQ(tab_separated(Depths(), {0, 1}), "Depth [m]\tDepth standard error [m]\n63.2\t1.4\n9.5\t\n");
+  EXPECT_EQ(tab_separated(Depths(), {1}), "Depth [m]\n9.5\n") << "no empty column";
+}
+
 TEST(Rows, AFilterTakesWordsAndLimits) {
   const Fish fish;
   const auto left = [&](const std::string& filter) {
@@ -81,6 +98,9 @@ TEST(Cells, OfLengthsAndSpeedsAreInTheUnitsThatAreRead) {
   EXPECT_EQ(in_units(number_cell(10.0, 2), "kn", units).text, "10.00");
   EXPECT_EQ(in_units(number_cell(30.48, 1), "m\u00B2", units).text, "30.5");
   EXPECT_EQ(in_units(number_cell(std::nan(""), 1), "m", units).text, "");
+  const Cell deep = in_units(with_error(number_cell(30.48, 1), 1.524), "m", units);
+  EXPECT_EQ(deep.text, "100.0 \u00B1 5.0") << "its error too";
+  EXPECT_EQ(deep.brief, "100.0");
   TableRows<NascRow> table;
   NascRow row;
   row.depth_from_m = 30.48;

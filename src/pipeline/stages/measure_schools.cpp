@@ -107,11 +107,11 @@ Hash128 key_of(const Engine& engine, std::int64_t ping_index, const std::vector<
     const PingMask& mask = one.in_ping->mask;
     hasher.add(std::as_bytes(std::span(&one.school->decided.school_id, 1)));
     hasher.add(std::as_bytes(std::span(&one.in_ping->threshold_db, 1)));
+    hasher.add(std::as_bytes(std::span(mask.runs)));
+    hasher.add(std::as_bytes(std::span(mask.confidence)));
     if (!engine.recipe().errors.enabled) continue;
     const int fadings = fadings_of_ping(one.school->pings.size());
     hasher.add(std::as_bytes(std::span(&fadings, 1)));
-    hasher.add(std::as_bytes(std::span(mask.runs)));
-    hasher.add(std::as_bytes(std::span(mask.confidence)));
   }
   return hasher.value();
 }

@@ -153,8 +153,8 @@ void take_away(const Velocities::Now& now, const Point<Enu>& school, SchoolPingR
   }
   row.course_away_deg = std::abs(wrap_180(row.course_smoothed_deg - deg_from_rad(std::atan2(school.x, school.y))));
   if (!std::isfinite(row.course_away_deg)) return;
-  // A bearing turns by what a place moves across it, over the distance.
-  const double square = now.line.slope_x * now.line.slope_x + now.line.slope_y * now.line.slope_y;
+  // A bearing turns by what a place moves across it, over the distance; a course likewise, over the speed as it is told.
+  const double square = std::hypot(now.line.slope_x, now.line.slope_y) * row.speed_smoothed_mps;
   const Point<Enu> by_place{-away.y / distance_m, away.x / distance_m, 0.0};
   const Point<Enu> by_velocity{now.line.slope_y / square, -now.line.slope_x / square, 0.0};
   row.course_away_se_deg = deg_from_rad(now.error_of(by_place, by_velocity));

@@ -290,8 +290,12 @@ TEST(MovementErrors, ThroughTheWaterHaveTheProfilesNoise) {
   EXPECT_NEAR(rows[10].course_water_smoothed_se_deg, deg_from_rad(0.05 / std::hypot(0.6, 0.1)), 0.05);
   EXPECT_LT(rows[10].speed_away_se_mps, 1e-3) << "over ground nothing errs";
   const WaterCurrents unknown{&water, {}, kUnknown};
-  add_movement(rows, ShipWay(ship), {}, &unknown);
-  EXPECT_NEAR(rows[10].speed_away_water_mps, 0.6, 1e-3);
+  auto again = school(ship, {-200, 250, 0}, {-1, 0, 0});
+  add_movement(again, ShipWay(ship), {}, &unknown);
+  EXPECT_NEAR(again[10].speed_away_water_mps, 0.6, 1e-3);
+  EXPECT_TRUE(std::isnan(again[10].speed_away_water_se_mps));
+  EXPECT_TRUE(std::isnan(again[10].speed_water_smoothed_se_mps));
+  EXPECT_TRUE(std::isnan(again[10].course_water_smoothed_se_deg));
 }
 
 }  // namespace

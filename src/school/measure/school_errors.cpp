@@ -158,7 +158,8 @@ FigureValues school_errors(std::span<const SchoolPingRow> rows, std::span<const 
   FigureValues errors = unknown_figures();
   std::size_t fadings = kFadings;  // of the ping that has fewest
   for (const Repeats* one : repeats) {
-    if (one->size() < kLeastFadings + 2) return errors;
+    // They may come from a file that anyone can write.
+    if (one->size() < kLeastFadings + 2 || one->size() > kFadings + 2) return errors;
     fadings = std::min(fadings, one->size() - 2);
   }
   std::vector<FigureValues> others;

@@ -48,26 +48,24 @@ Cell count_cell(std::int64_t count) { return {std::to_string(count), static_cast
 
 Cell number_cell(double value, int decimals) {
   if (std::isnan(value)) return {};
-  return {fmt::format("{:.{}f}", value, decimals), value, {}, decimals};
+  return {decimals < 0 ? fmt::format("{:.3g}", value) : fmt::format("{:.{}f}", value, decimals), value, {}, decimals};
 }
 
-Cell with_error(Cell cell, double se, int decimals) {
+Cell with_error(Cell cell, double se) {
   if (!std::isfinite(se) || cell.text.empty()) return cell;
+  cell.se = se;
   cell.brief = cell.text;
-  cell.text += fmt::format(" \u00B1 {:.{}f}", se, decimals);
+  cell.text += fmt::format(" \u00B1 {}", number_cell(se, cell.decimals).text);
   return cell;
 }
 
-Cell broad_cell(double value) {
-  if (std::isnan(value)) return {};
-  return {fmt::format("{:.3g}", value), value};
-}
+Cell broad_cell(double value) { return number_cell(value, -1); }
 
 Cell in_units(Cell cell, std::string_view column_unit, const Units& units) {
   const Unit unit = shown_unit(column_unit, units);
   const auto* value = std::get_if<double>(&cell.key);
   if (value == nullptr || unit.si == 1.0) return cell;
-  return cell.decimals < 0 ? broad_cell(unit.of(*value)) : number_cell(unit.of(*value), cell.decimals);
+  return with_error(number_cell(unit.of(*value), cell.decimals), unit.of(cell.se));
 }
 
 Cell time_cell(TimeNs time) {

@@ -13,13 +13,13 @@ namespace sonar {
 
 [[nodiscard]] Cell text_cell(std::string text);
 [[nodiscard]] Cell count_cell(std::int64_t count);
-/// NaN = unknown: an empty cell.
+/// NaN = unknown: an empty cell. decimals as Cell has them.
 [[nodiscard]] Cell number_cell(double value, int decimals);
-/// With its standard error behind it: "63.2 \u00B1 1.4". NaN = unknown: the cell as it is.
-[[nodiscard]] Cell with_error(Cell cell, double se, int decimals);
+/// A number with its standard error behind it: "63.2 \u00B1 1.4". NaN = unknown: the cell as it is.
+[[nodiscard]] Cell with_error(Cell cell, double se);
 /// Three significant digits, for quantities that go over many powers of ten.
 [[nodiscard]] Cell broad_cell(double value);
-/// The same cell in the unit that a user reads; what is neither a length nor a speed stays.
+/// The same cell in the unit that a user reads, its standard error too; what is neither a length nor a speed stays.
 /// column_unit  of the cell's own column, "m"
 [[nodiscard]] Cell in_units(Cell cell, std::string_view column_unit, const Units& units);
 /// "2026-11-21 19:57:26" UTC; 0 = unknown.

@@ -29,12 +29,12 @@ class Lists : public testing::Test, protected TestApp {
 };
 
 TEST(Cells, AFigureShowsItsErrorWhereItIsKnown) {
-  const Cell depth = with_error(number_cell(63.24, 1), 1.36, 1);
+  const Cell depth = with_error(number_cell(63.24, 1), 1.36);
   EXPECT_EQ(depth.text, "63.2 \u00B1 1.4");
   EXPECT_EQ(depth.brief, "63.2") << "where the list is narrow";
   EXPECT_EQ(std::get<double>(depth.key), 63.24) << "sorted by the figure";
-  EXPECT_EQ(with_error(number_cell(63.24, 1), kUnknown, 1).text, "63.2");
-  EXPECT_EQ(with_error(number_cell(kUnknown, 1), 1.36, 1).text, "");
+  EXPECT_EQ(with_error(number_cell(63.24, 1), kUnknown).text, "63.2");
+  EXPECT_EQ(with_error(number_cell(kUnknown, 1), 1.36).text, "");
 }
 
 TEST_F(Lists, TheSurveyTreeHasObservationsWithTheirFilesBelowAndOpensThem) {

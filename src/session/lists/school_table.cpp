@@ -35,7 +35,7 @@ template <auto member, int decimals, std::size_t error>
 Cell with_error_of(const SurveySchool& school) {
   static_assert(error < kErrorCount);
   if (school.row == nullptr) return {};
-  return with_error(number_cell(school.row->*member, decimals), school.row->se[error], decimals);
+  return with_error(number_cell(school.row->*member, decimals), school.row->se[error]);
 }
 
 std::vector<ColumnOf<SurveySchool>> made_columns() {

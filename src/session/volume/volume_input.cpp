@@ -114,7 +114,8 @@ std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const st
   input.beam = std::clamp(workspace.slices().beam, 0, shown->sector().beams() - 1);
   input.scale_bar = workspace.curve_follows_scale();
   input.moving_budget_s = workspace.volume.values().moving_budget_ms / 1e3;
-  input.currents = volume_currents(document.recipe(), *input.sector, input.navigation, input.options);
+  input.currents =
+      volume_currents(document.recipe(), *input.sector, input.navigation, input.options.volume, input.options.units);
   input.extinction = document.recipe().measure.extinction;
   if (trail_params(input.options.volume).any()) {
     input.trails = trail_subject(workspace, shown, theme_of(input.options));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/maps/depth_layer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -196,7 +198,7 @@ DepthBands add_depth_layer(FrameDescription& frame, const MapFrame& map, const D
     frame.items.emplace_back(std::move(path));
     if (level == 0.0) continue;
     for (const PathItem::Part& part : parts) {
-      add_label(frame, part.points, tick_text(theme.units.length().of(level), 0), map, theme, taken);
+      add_label(frame, part.points, fmt::format("{:g}", rounded(level, theme.units.length())), map, theme, taken);
     }
   }
   frame.items.emplace_back(ClipItem{});

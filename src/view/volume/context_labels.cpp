@@ -267,8 +267,7 @@ void add_context_labels(FrameDescription& frame, const Sector& sector, const Con
   if (params.depth_axis) label_depths(labels, depth_axis(sector, params), far_range_m(sector), z, unit);
   if (params.range_rings) label_bearings(labels, grid, params, z);
   label_slices(labels, sector, params);
-  label_currents(labels,
-                 current_arrows(sector, params.currents, params.heading_deg, params.transducer_depth_m, params.units),
+  label_currents(labels, current_arrows(sector, params.currents, params.heading_deg, params.transducer_depth_m),
                  far_range_m(sector), unit);
 }
 

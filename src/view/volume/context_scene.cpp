@@ -155,9 +155,8 @@ ContextScene context_scene(const Sector& sector, const ContextParams& params, co
   add_slices(scene, sector, params, theme);
   add_drop_lines(scene, params, theme);
   if (params.shadow_from) add_shadow(scene, sector, *params.shadow_from, theme);
-  add_current_arrows(
-      scene, current_arrows(sector, params.currents, params.heading_deg, params.transducer_depth_m, params.units),
-      params.transducer_depth_m, theme);
+  add_current_arrows(scene, current_arrows(sector, params.currents, params.heading_deg, params.transducer_depth_m),
+                     params.transducer_depth_m, theme);
   if (params.trails) scene.under = *params.trails;
   return scene;
 }

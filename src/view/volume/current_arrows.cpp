@@ -36,26 +36,23 @@ std::vector<double> current_depths(const Sector& sector, double transducer_depth
 
 std::optional<CurrentScale> current_scale(const Sector& sector, const CurrentColumn& column, const Units& units) {
   if (!(column.fastest_mps >= kLeast_mps)) return std::nullopt;
-  const Unit speed = units.speed();
-  const Unit long_for_one{units.length().si / speed.si, {}};
-  const double metres_per_mps = round_below(kLongest * far_range_m(sector) / column.fastest_mps, long_for_one);
-  const double speed_mps = round_below(column.fastest_mps, speed);
+  const double metres_per_mps = round_below(kLongest * far_range_m(sector) / column.fastest_mps, {});
+  const double speed_mps = round_below(column.fastest_mps, units.speed());
   return CurrentScale{speed_mps, speed_mps * metres_per_mps};
 }
 
 std::string current_words(const Sector& sector, const CurrentColumn& column, const std::optional<double>& heading_deg,
                           const Units& units) {
-  if (current_arrows(sector, column, heading_deg, 0.0, units).empty()) return {};
+  if (current_arrows(sector, column, heading_deg, 0.0).empty()) return {};
   const auto scale = current_scale(sector, column, units);
   return fmt::format("current below the ship: {} is {} long", round_text(scale->speed_mps, units.speed()),
                      round_text(scale->length_m, units.length()));
 }
 
 std::vector<CurrentArrow> current_arrows(const Sector& sector, const CurrentColumn& column,
-                                         const std::optional<double>& heading_deg, double transducer_depth_m,
-                                         const Units& units) {
+                                         const std::optional<double>& heading_deg, double transducer_depth_m) {
   std::vector<CurrentArrow> out;
-  const auto scale = current_scale(sector, column, units);
+  const auto scale = current_scale(sector, column);
   if (!scale || !heading_deg) return out;
   const double metres_per_mps = scale->length_m / scale->speed_mps;
   for (const CurrentAt& current : column.at) {

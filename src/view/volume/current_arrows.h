@@ -27,7 +27,8 @@ struct CurrentColumn {
 [[nodiscard]] std::vector<double> current_depths(const Sector& sector, double transducer_depth_m,
                                                  const Units& units = {});
 
-/// How long a speed is drawn: whole ones, twos or fives of the units, the fastest no longer than a quarter of the range.
+/// How long a speed is drawn: the fastest no longer than a quarter of the range. The speed is a whole one, two or five of the
+/// unit of speeds, and so are the metres of 1 m/s.
 struct CurrentScale {
   double speed_mps = 0.0;
   double length_m = 0.0;  ///< of an arrow at that speed
@@ -47,7 +48,7 @@ struct CurrentArrow {
 /// Turned into the ship's frame by its true heading; none where that is unknown, and none of water that has no direction.
 [[nodiscard]] std::vector<CurrentArrow> current_arrows(const Sector& sector, const CurrentColumn& column,
                                                        const std::optional<double>& heading_deg,
-                                                       double transducer_depth_m, const Units& units = {});
+                                                       double transducer_depth_m);
 
 [[nodiscard]] Rgba8 current_colour();
 /// The arrows, on a thin line from the sea surface down to the deepest.

@@ -79,23 +79,23 @@ TEST(CurrentArrows, TheLegendTellsTheScaleThatTheyAreDrawnTo) {
   }
 }
 
-// By hand: 0.4 m/s are 0.78 kn, a quarter of the range 164 ft; over each other 211, so 200 ft for 1 kn.
-TEST(CurrentArrows, AreRoundInTheUnitsThatAreRead) {
-  const Sector sector = slice_example::hand_sector();
-  const Units units{LengthUnit::feet, SpeedUnit::knots};
-  EXPECT_EQ(current_words(sector, two_layers(), 0.0, units), "current below the ship: 0.5 kn is 100 ft long");
-  const auto arrows = current_arrows(sector, two_layers(), 0.0, kTransducer_m, units);
-  EXPECT_NEAR(norm(arrows.at(0).to - arrows[0].from), 0.4 * 3600.0 / 1852.0 * 200.0 * 0.3048, 1e-9);
-  const std::vector<double> depths_m = current_depths(sector, kTransducer_m, units);
-  ASSERT_EQ(depths_m.size(), 12U) << "of 639 ft, every 50";
-  EXPECT_NEAR(depths_m.front(), 50.0 * 0.3048, 1e-9);
-  EXPECT_NEAR(depths_m.back(), 600.0 * 0.3048, 1e-9);
-}
-
 // Deepest is the fan at -70 degrees: 200 sin 70 + 7 = 194.9 m.
 TEST(CurrentArrows, StandAtEvenDepthsDownToTheDeepestPlace) {
   EXPECT_EQ(current_depths(slice_example::hand_sector(), kTransducer_m),
             (std::vector<double>{20, 40, 60, 80, 100, 120, 140, 160, 180}));
+}
+
+// 0.4 m/s are 0.78 kn, so 0.5 kn = 0.2572 m/s are told; 100 m for 1 m/s make that 25.72 m = 84.4 ft. Down to 194.9 m =
+// 639 ft every 50 ft are twelve arrows.
+TEST(CurrentArrows, AreReadInTheChosenUnits) {
+  const Units units{LengthUnit::feet, SpeedUnit::knots};
+  const Sector sector = slice_example::hand_sector();
+  EXPECT_EQ(current_words(sector, two_layers(), 0.0, units), "current below the ship: 0.5 kn is 84.4 ft long");
+  const auto depths_m = current_depths(sector, kTransducer_m, units);
+  ASSERT_EQ(depths_m.size(), 12U);
+  for (std::size_t i = 0; i < depths_m.size(); ++i) {
+    EXPECT_NEAR(depths_m[i], 0.3048 * 50.0 * static_cast<double>(i + 1), 1e-9);
+  }
 }
 
 // Law: a ship turns from 20 to 110 degrees on the spot. Before an eye that stands still on the earth arrows stay where
@@ -142,11 +142,11 @@ TEST(CurrentArrows, AreDrawnRoundTheVolumeAndLabelled) {
   std::vector<std::string> words;
   for (const auto& item : frame.items) words.push_back(std::get<TextItem>(item).text);
   EXPECT_EQ(words, (std::vector<std::string>{"20 m", "60 m"}));
-  params.units = {LengthUnit::feet, SpeedUnit::usual};
-  FrameDescription feet{kSize, {}, {}, {}};
-  add_context_labels(feet, sector, params, basis(overview(sector, kSize), kSize), light_theme(kSize));
-  ASSERT_FALSE(feet.items.empty());
-  for (const auto& item : feet.items) EXPECT_TRUE(std::get<TextItem>(item).text.ends_with(" ft"));
+  params.units.lengths = LengthUnit::feet;
+  FrameDescription in_feet{kSize, {}, {}, {}};
+  add_context_labels(in_feet, sector, params, basis(overview(sector, kSize), kSize), light_theme(kSize));
+  ASSERT_FALSE(in_feet.items.empty());
+  for (const auto& item : in_feet.items) EXPECT_TRUE(std::get<TextItem>(item).text.ends_with(" ft"));
 }
 
 }  // namespace
