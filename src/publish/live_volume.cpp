@@ -61,9 +61,10 @@ LiveVolumeInput with_between(const LiveVolumeInput& input, Work& work) {
   return out;
 }
 
-/// Jittered frames that are worth showing: each step twice as smooth as the one before.
+/// Jittered frames that are worth showing: each step twice as smooth as the one before. One alone is no smoother than the plain
+/// one, and its rays stand to one side in their pixels.
 bool worth_showing(const Refinement::Frame& frame) {
-  return frame.done || (frame.averaged & (frame.averaged - 1)) == 0;
+  return frame.done || (frame.averaged != 1 && (frame.averaged & (frame.averaged - 1)) == 0);
 }
 
 }  // namespace

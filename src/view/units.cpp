@@ -50,9 +50,10 @@ std::string round_text(double si, const Unit& unit) { return fmt::format("{:g} {
 std::string with_unit(std::string_view what, const Unit& unit) { return fmt::format("{} ({})", what, unit.name); }
 
 double round_below(double most, const Unit& unit) {
-  const double power = std::pow(10.0, std::floor(std::log10(unit.of(most))));
+  const double value = unit.of(most) * (1.0 + 1e-9);  // 4.999... is five
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
   for (const double step : {5.0, 2.0}) {
-    if (step * power <= unit.of(most)) return step * power * unit.si;
+    if (step * power <= value) return step * power * unit.si;
   }
   return power * unit.si;
 }

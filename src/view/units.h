@@ -46,7 +46,7 @@ struct Units {
 /// "depth (ft)", of an axis.
 [[nodiscard]] std::string with_unit(std::string_view what, const Unit& unit);
 
-/// The longest length that is 1, 2 or 5 times a power of ten of the unit and no longer than `most`, in SI: of a scale bar.
+/// The most that is 1, 2 or 5 times a power of ten of the unit and no more than `most` but for rounding, in SI: of a scale.
 [[nodiscard]] double round_below(double most, const Unit& unit);
 
 /// What a table's column is shown in, by the unit that it carries: "m", "m/s" (or "m s-1", as files and axes have it), "kn".

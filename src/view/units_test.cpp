@@ -91,6 +91,9 @@ TEST(Units, RoundNumbersAreOfTheUnitThatIsRead) {
   EXPECT_DOUBLE_EQ(round_below(100.0, kFathoms.length()), 50.0 * 1.8288);
   EXPECT_DOUBLE_EQ(round_below(7.0, kFeet.length()), 20.0 * kFoot_m);
   EXPECT_EQ(round_below(7.0, Units{}.length()), 5.0);
+  for (int feet = 1; feet <= 1000; feet *= 10) {
+    EXPECT_DOUBLE_EQ(round_below(feet * kFoot_m, kFeet.length()), feet * kFoot_m) << "no less for rounding";
+  }
   EXPECT_EQ(round_text(1250.0 * kFoot_m, kFeet.length()), "1250 ft");
   EXPECT_EQ(round_text(5.0, kFeet.length()), "16.4 ft");
   EXPECT_EQ(round_text(1234.5, Units{}.length()), "1234.5 m");
@@ -230,6 +233,11 @@ TEST(UnitsOfPictures, VolumesFollow) {
         FrameDescription frame{kSize, {}, {}, {}};
         ContextParams params;
         params.units = theme.units;
+        params.heading_deg = 0.0;
+        params.currents.fastest_mps = 0.4;
+        for (const double depth_m : current_depths(sector, params.transducer_depth_m, theme.units)) {
+          params.currents.at.push_back({depth_m, 0.4, 0.0});
+        }
         add_context_labels(frame, sector, params, basis(camera, kSize), theme);
         return frame;
       },

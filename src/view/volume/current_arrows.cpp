@@ -20,9 +20,6 @@ constexpr double kHead = 0.3;         ///< of an arrow's length
 constexpr double kLeast_mps = 0.005;  ///< slower water has no direction
 constexpr int kMostArrows = 15;
 
-/// As round_below(), of what a rounding may have put a hair below: 4.999... is five.
-double whole_below(double value, const Unit& unit = {}) { return round_below(value * (1.0 + 1e-9), unit); }
-
 }  // namespace
 
 std::vector<double> current_depths(const Sector& sector, double transducer_depth_m, const Units& units) {
@@ -39,8 +36,8 @@ std::vector<double> current_depths(const Sector& sector, double transducer_depth
 
 std::optional<CurrentScale> current_scale(const Sector& sector, const CurrentColumn& column, const Units& units) {
   if (!(column.fastest_mps >= kLeast_mps)) return std::nullopt;
-  const double metres_per_mps = whole_below(kLongest * far_range_m(sector) / column.fastest_mps);
-  const double speed_mps = whole_below(column.fastest_mps, units.speed());
+  const double metres_per_mps = round_below(kLongest * far_range_m(sector) / column.fastest_mps, {});
+  const double speed_mps = round_below(column.fastest_mps, units.speed());
   return CurrentScale{speed_mps, speed_mps * metres_per_mps};
 }
 
