@@ -138,7 +138,8 @@ Result<std::shared_ptr<const SeabedPatch>> seabed(const VolumeFigure& figure, co
 Result<RayImage> refined(VolumeRenderer& renderer, const VolumeView& view, const PictureOptions& options, Work& work) {
   const std::string stage = fmt::format("drawing by {}", renderer.name());
   work.progress(stage, 0, std::max(options.volume.frames, 1));
-  if (options.volume.frames <= 0) return renderer.draw(view, {}, work);
+  // One alone would stand beside the pixels' middles.
+  if (options.volume.frames <= 1) return renderer.draw(view, {}, work);
   Refinement refinement(renderer, {.most_frames = options.volume.frames, .rest_budget_s = options.kind.volume.seconds});
   refinement.restart(view);
   for (;;) {
