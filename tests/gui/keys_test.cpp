@@ -183,6 +183,7 @@ TEST_F(Keys, PreferencesFollowAtOnceAndCancelBringsBackWhatWasThere) {
 TEST_F(Keys, UnitsAreChosenInThePreferencesAndTheWholeWindowFollowsAtOnce) {
   const Target target = look_at_school();
   const auto read_out_line = [&] {
+    move("side_slice", {4.0, 4.0});  // a pointer that stays where it is tells nothing
     move("side_slice", place_in("side_slice", target.voxel));
     return window_->statusBar()->findChild<QLineEdit*>("read_out")->text().toStdString();
   };
