@@ -256,7 +256,7 @@ TEST(ObservationMap, AScaleStandsOnlyWhereItLeavesTheMapToBeSeen) {
   };
   EXPECT_TRUE(with_scale(kSize));
   EXPECT_TRUE(with_scale({320, 240}));
-  EXPECT_FALSE(with_scale({400, 140}));
+  EXPECT_FALSE(with_scale({400, 120}));
 }
 
 }  // namespace
