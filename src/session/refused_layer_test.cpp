@@ -17,7 +17,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// No school is 15 fans high: the survey's schools, clean and bright, are all refused, by judge size.
-Recipe tall() { return *recipe_from_text(R"({"recipe_version":1,"detect":{"size":{"min_fans":15}}})"); }
+Recipe tall() { return *recipe_from_text(R"({"recipe_version":1,"detect":{"min_fans":15}})"); }
 
 class Refused : public testing::Test {
  protected:
