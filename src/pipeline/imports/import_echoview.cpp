@@ -194,7 +194,15 @@ class Regions {
       if (!cells) return fail(cells.error().code, at(region, cells.error().text), {file_});
       ImportedSchool school;
       for (std::int64_t ping = pings.first; ping < pings.end; ++ping) {
-        if (auto runs = cells->in_ping(ping); !runs.empty()) school.pings[ping] = std::move(runs);
+        auto runs = cells->in_ping(ping);
+        runs_ += runs.size();
+        if (runs_ > place_.most_runs) {
+          return fail(ErrorCode::format,
+                      at(region, fmt::format("the regions up to here hold over {} runs of samples; expected fewer",
+                                             place_.most_runs)),
+                      {file_});
+        }
+        if (!runs.empty()) school.pings[ping] = std::move(runs);
       }
       if (school.pings.empty()) continue;
       empty = false;
@@ -274,6 +282,7 @@ class Regions {
   const std::string& file_;
   const ImportPlace& place_;
   Imported& imported_;
+  std::size_t runs_ = 0;  ///< of schools so far
 };
 
 }  // namespace

@@ -338,6 +338,17 @@ TEST_F(Import, ARegionThatSaysTooLittleOrTooMuchIsRefused) {
   EXPECT_THAT(refused("EVRG 7 13.0\n1\n"), HasSubstr("the file ends"));
 }
 
+// Three pings and eight beams are 24 runs; the second region is one too many.
+TEST_F(Import, RegionsOfMoreRunsThanMemoryIsMeantForAreRefused) {
+  place_.fan = 2;
+  const std::string one = region(1, box(2, 4, 10.0, 20.0), "one");
+  const std::string two = region(1, box(2, 4, 30.0, 40.0), "two");
+  place_.most_runs = 48;
+  EXPECT_EQ(refused(evr({one, two})), "");
+  place_.most_runs = 47;
+  EXPECT_THAT(refused(evr({one, two})), HasSubstr("region two: the regions up to here hold over 47 runs"));
+}
+
 TEST_F(Import, TheJournalIsReadBack) {
   place_.fan = 2;
   // A journal takes texts of one line and of up to 4096 bytes; of two bytes is each letter behind the first.
