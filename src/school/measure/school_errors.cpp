@@ -74,14 +74,15 @@ FigureValues repeated(std::span<const SchoolPingRow> rows, std::span<const Repea
 /// Their standard deviation, so much wider that 1.96 of it are the 95 % of Student's t for as many.
 /// fadings  of a ping: where they are few, each comes up several times and the mean of a ping's hardly differs
 double spread(const std::vector<double>& values, std::size_t fadings) {
-  constexpr double kStudent = 2.1314 / 1.95996;  // 15 degrees of freedom
+  // 15 degrees of freedom; where repeats are put together of shared fadings they know as much as some 10 independent ones.
+  const double student = (fadings == kFadings ? 2.1314 : 2.2622) / 1.95996;
   if (2 * values.size() < kFadings) return kUnknown;
   double mean = 0.0;
   for (const double v : values) mean += v / static_cast<double>(values.size());
   double square = 0.0;
   for (const double v : values) square += (v - mean) * (v - mean);
   const auto n = static_cast<double>(fadings);
-  return kStudent * std::sqrt(square / static_cast<double>(values.size()) * n / (n - 1.0));
+  return student * std::sqrt(square / static_cast<double>(values.size()) * n / (n - 1.0));
 }
 
 bool is_level(std::string_view figure) { return figure.starts_with("sv_") && figure.ends_with("_db"); }
