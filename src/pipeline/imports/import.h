@@ -37,7 +37,7 @@ struct ImportPlace {
   std::optional<int> fan;                        ///< of regions that do not name one
   std::optional<BeamSpan> beams;                 ///< the same; empty = all of the fan
   LsssNumbering lsss = LsssNumbering::from_one;  ///< of masks of LSSS
-  std::size_t most_runs = 10'000'000;            ///< of a file's regions, in all pings: a short text can claim any number
+  std::size_t most_runs = 10'000'000;  ///< of a file's regions, in all pings: a short text can claim any number
 };
 /// observation  its name; empty = all of the sounder that comes first in the survey and has a grid
 /// errors       usage: there is none of that name, or none with a grid
