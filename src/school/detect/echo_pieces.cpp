@@ -62,7 +62,8 @@ EchoPieces echo_pieces(const PingEcho& echo, const Thresholder& thresholder, con
         const double water = water_sv[static_cast<std::size_t>(piece)];
         out.water(fan, beam, piece) = in_units(water, out.unit_sv);
         if (any_never(flags, first, end)) continue;
-        out.own(fan, beam, piece) = std::isfinite(mean) ? in_units(mean - water, out.unit_sv) : EchoPieces::kUnheard;
+        const bool told = std::isfinite(mean) && thresholder.may_be_sought(row, (first + end) / 2);
+        out.own(fan, beam, piece) = told ? in_units(mean - water, out.unit_sv) : EchoPieces::kUnheard;
       }
     }
   }
