@@ -2,6 +2,8 @@
 #include "pipeline/stages/voxel_statistics.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <utility>
 
 #include "base/units.h"
 #include "school/mask_shape.h"
@@ -26,15 +28,26 @@ EchoStatistics echo_of(const PingMask& mask, const StagedPing& ping, const Secto
   return echo_statistics(input_of(ping, sector), mask);
 }
 
-std::vector<int> shadow_from(const StagedPing& ping, const Sector& sector, std::span<const PingMask* const> masks,
-                             const ExtinctionParams& params, double least_db) {
+std::vector<std::vector<double>> shadow_of(const StagedPing& ping, const Sector& sector,
+                                           std::span<const PingMask* const> masks, const ExtinctionParams& params) {
   MeasureInput input = input_of(ping, sector);
   input.filtered = ping.filtered->counts.view();
+  std::vector<std::vector<double>> out;
+  for (BeamGain& beam : ping_gain(input, masks, params.ratio, params.most_db)) {
+    // Where less than the background is heard the sum falls a little.
+    for (std::size_t s = 1; s < beam.behind.size(); ++s) beam.behind[s] = std::max(beam.behind[s], beam.behind[s - 1]);
+    out.push_back(std::move(beam.behind));
+  }
+  return out;
+}
+
+std::vector<int> shadow_from(const StagedPing& ping, const Sector& sector, std::span<const PingMask* const> masks,
+                             const ExtinctionParams& params, double least_db) {
+  const double least = linear_from_db(least_db);
   std::vector<int> from;
-  for (const BeamGain& beam : ping_gain(input, masks, params.ratio, params.most_db)) {
-    const double least = linear_from_db(least_db);
-    const auto first = std::ranges::find_if(beam.behind, [&](double gain) { return gain >= least; });
-    from.push_back(first == beam.behind.end() ? sector.range().count : static_cast<int>(first - beam.behind.begin()));
+  for (const std::vector<double>& beam : shadow_of(ping, sector, masks, params)) {
+    const auto first = std::ranges::lower_bound(beam, least);
+    from.push_back(first == beam.end() ? sector.range().count : static_cast<int>(first - beam.begin()));
   }
   return from;
 }

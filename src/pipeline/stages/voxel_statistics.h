@@ -28,9 +28,16 @@ struct VoxelStatistics {
 [[nodiscard]] VoxelStatistics statistics_of(const PingMask& mask, const StagedPing& ping, const Sector& sector,
                                             const Placement& placement);
 
+/// What schools have taken of what is heard of each sample, as a factor >= 1 of sv that does not fall along a beam. [row]
+/// [sample]; empty = nothing of that beam.
+/// masks  of the schools that take sound out
+[[nodiscard]] std::vector<std::vector<double>> shadow_of(const StagedPing& ping, const Sector& sector,
+                                                         std::span<const PingMask* const> masks,
+                                                         const ExtinctionParams& params);
+
 /// Where what is heard of a beam lies in the shadow of schools: from that sample on, 2-way loss of least_db or more; no
 /// sample = the record's end. [row]
-/// masks  of the schools that take sound out
+/// masks  as shadow_of()
 [[nodiscard]] std::vector<int> shadow_from(const StagedPing& ping, const Sector& sector,
                                            std::span<const PingMask* const> masks, const ExtinctionParams& params,
                                            double least_db);
