@@ -22,7 +22,7 @@ constexpr double kWater = 1e-15;
 
 /// Two slabs of fish, and fish too few to be a school behind both, in all beams alike.
 struct Slabs {
-  double near_sv = 1e-3;  ///< samples 200 .. 259
+  double near_sv = 3e-3;  ///< samples 200 .. 259
   double far_sv = 5e-4;   ///< 300 .. 359
   double behind_sv = 1e-6;
 
@@ -104,8 +104,8 @@ TEST_F(IntegrateExtinction, two_slabs_and_what_lies_behind_them_come_back_as_the
     EXPECT_GT(corrected.cells[i].extinction_high_m2, corrected.cells[i].extinction_m2 - 1e-15);
   }
   EXPECT_GT(cells, 20);
-  // Behind both: 60 samples of 1e-3 and of 5e-4, 2.3 dB.
-  const double gain = std::exp(kPerSv * 1.5e-3 * 60.0 * spacing_m());
+  // Behind both: 60 samples of 3e-3 and of 5e-4, 5.4 dB.
+  const double gain = std::exp(kPerSv * 3.5e-3 * 60.0 * spacing_m());
   const CellSums& behind = corrected.at(4, 6);
   EXPECT_NEAR(behind.echo_m2 / heard.at(4, 6).echo_m2, gain, 0.004 * gain);
   // Whatever fades is as many times stronger.
