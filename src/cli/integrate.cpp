@@ -72,6 +72,9 @@ void print_result(const Integrated& done, const std::string& out) {
                     "reckoning, see n_pings_without_position in effort.csv",
                     count_of(static_cast<std::size_t>(reckoned), "ping")));
   }
+  if (const std::string extinction = extinction_text(done.tables); !extinction.empty()) {
+    print_note("extinction-corrected: " + extinction);
+  }
   for (const StratumRow& row : done.tables.strata) {
     if (row.level == "transect") continue;
     const std::string of = row.level == "survey" ? "survey"

@@ -39,9 +39,10 @@ void describe(Visitor& v, ExtinctionParams& p) {
            .max = 20,
            .text = "Two-way loss above which no more is told or corrected, because what is heard there hardly depends "
                    "on the fish; raise it for ratios that are well known."});
-  v.field("correct", p.correct,
-          {.text = "Measure schools as they would be without extinction; extinction_corrected is 1 in their rows then. "
-                   "Switch it on only with a ratio for the fish and frequency at hand."});
+  v.field(
+      "correct", p.correct,
+      {.text = "Measure schools, and integrate echo, as they would be without extinction; extinction_corrected is 1 in "
+               "the rows of schools then. Switch it on only with a ratio for the fish and frequency at hand."});
 }
 
 }  // namespace sonar

@@ -35,6 +35,10 @@ struct EffortRow {
   double nasc_rest_m2_nmi2 = kUnknown;
   double nasc_layer_m2_nmi2 = kUnknown;       ///< only of one layer
   std::int64_t n_pings_without_position = 0;  ///< whose way is reckoned
+  // Only where the recipe corrects for extinction.
+  double nasc_extinction_m2_nmi2 = kUnknown;  ///< of nasc_m2_nmi2, what schools had taken and was given back
+  double nasc_extinction_low_m2_nmi2 = kUnknown;
+  double nasc_extinction_high_m2_nmi2 = kUnknown;
 };
 
 /// One range bin and depth channel of an EDSU: a row of nasc.csv.
@@ -66,6 +70,10 @@ struct NascRow {
   double nasc_school_se_m2_nmi2 = kUnknown;
   double nasc_rest_m2_nmi2 = kUnknown;
   double nasc_layer_m2_nmi2 = kUnknown;
+  // As in EffortRow.
+  double nasc_extinction_m2_nmi2 = kUnknown;
+  double nasc_extinction_low_m2_nmi2 = kUnknown;
+  double nasc_extinction_high_m2_nmi2 = kUnknown;
 };
 
 /// A transect, a stratum or the survey: a row of strata.csv.
@@ -82,6 +90,10 @@ struct StratumRow {
   double nasc_school_se_m2_nmi2 = kUnknown;
   double nasc_layer_m2_nmi2 = kUnknown;  ///< only of one layer
   double nasc_layer_se_m2_nmi2 = kUnknown;
+  // As in EffortRow.
+  double nasc_extinction_m2_nmi2 = kUnknown;
+  double nasc_extinction_low_m2_nmi2 = kUnknown;
+  double nasc_extinction_high_m2_nmi2 = kUnknown;
 };
 
 template <class Visitor>
@@ -109,6 +121,10 @@ void columns(Visitor& v, EffortRow& r) {
   v("nasc_rest_m2_nmi2", "m2 nmi-2", r.nasc_rest_m2_nmi2);
   v("nasc_layer_m2_nmi2", "m2 nmi-2", r.nasc_layer_m2_nmi2);
   v("n_pings_without_position", "1", r.n_pings_without_position);
+  // Extinction.
+  v("nasc_extinction_m2_nmi2", "m2 nmi-2", r.nasc_extinction_m2_nmi2);
+  v("nasc_extinction_low_m2_nmi2", "m2 nmi-2", r.nasc_extinction_low_m2_nmi2);
+  v("nasc_extinction_high_m2_nmi2", "m2 nmi-2", r.nasc_extinction_high_m2_nmi2);
 }
 
 template <class Visitor>
@@ -140,6 +156,10 @@ void columns(Visitor& v, NascRow& r) {
   v("nasc_school_se_m2_nmi2", "m2 nmi-2", r.nasc_school_se_m2_nmi2);
   v("nasc_rest_m2_nmi2", "m2 nmi-2", r.nasc_rest_m2_nmi2);
   v("nasc_layer_m2_nmi2", "m2 nmi-2", r.nasc_layer_m2_nmi2);
+  // Extinction.
+  v("nasc_extinction_m2_nmi2", "m2 nmi-2", r.nasc_extinction_m2_nmi2);
+  v("nasc_extinction_low_m2_nmi2", "m2 nmi-2", r.nasc_extinction_low_m2_nmi2);
+  v("nasc_extinction_high_m2_nmi2", "m2 nmi-2", r.nasc_extinction_high_m2_nmi2);
 }
 
 template <class Visitor>
@@ -156,6 +176,10 @@ void columns(Visitor& v, StratumRow& r) {
   v("nasc_school_se_m2_nmi2", "m2 nmi-2", r.nasc_school_se_m2_nmi2);
   v("nasc_layer_m2_nmi2", "m2 nmi-2", r.nasc_layer_m2_nmi2);
   v("nasc_layer_se_m2_nmi2", "m2 nmi-2", r.nasc_layer_se_m2_nmi2);
+  // Extinction.
+  v("nasc_extinction_m2_nmi2", "m2 nmi-2", r.nasc_extinction_m2_nmi2);
+  v("nasc_extinction_low_m2_nmi2", "m2 nmi-2", r.nasc_extinction_low_m2_nmi2);
+  v("nasc_extinction_high_m2_nmi2", "m2 nmi-2", r.nasc_extinction_high_m2_nmi2);
 }
 
 }  // namespace sonar

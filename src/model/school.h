@@ -396,7 +396,10 @@ inline constexpr std::array<std::string_view, 34> kMovementColumns{"speed_smooth
                                          "box_tilt_deg",
                                          "mass_latitude",
                                          "mass_longitude",
-                                         "mass_depth_m"};
+                                         "mass_depth_m",
+                                         "nasc_extinction_m2_nmi2",
+                                         "nasc_extinction_low_m2_nmi2",
+                                         "nasc_extinction_high_m2_nmi2"};
   return std::find(std::begin(kLater), std::end(kLater), column) != std::end(kLater) ||
          std::any_of(kDescriptorColumns.begin(), kDescriptorColumns.end(),
                      [&](const DescriptorColumn& one) { return one.name == column; }) ||

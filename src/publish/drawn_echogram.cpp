@@ -7,8 +7,10 @@
 #include <functional>
 #include <utility>
 
+#include "pipeline/stages/voxel_statistics.h"
 #include "publish/drawn_schools.h"
 #include "publish/echogram_columns.h"
+#include "publish/sample_looks.h"
 
 namespace sonar {
 namespace {
@@ -119,20 +121,30 @@ Result<DrawnEchogram> of_beams(DrawnObservation& observation, const PingSpan& sp
   }
   out.product.rejected = std::move(refused);
   if (engine == nullptr) return out;
-  if (out.filtered) {
+  if (out.filtered || options.display.shadow) {
     auto known = engine->estimate_background(span.first, span.first + span.count - 1, work);
     if (!known) return pass_on(known);
   }
   const EchogramSamples shown = echogram_samples(options.display);
+  std::vector<std::vector<EchogramStretch>> shadow(static_cast<std::size_t>(span.count));
   auto made = pyramid_of(
       out.product, span, range,
       [&](std::int64_t ping) {
         const auto staged = engine->staged(ping);
-        return staged ? echogram_column(*staged, *sector, placement(ping), *of, shown, range) : Column{};
+        if (!staged) return Column{};
+        if (options.display.shadow) {
+          const std::vector<MaskLayer> layers = mask_layers(observation.ping_without_samples(ping), options);
+          const auto at = static_cast<std::size_t>(ping - span.first);
+          shadow[at] =
+              echogram_shadow(shadow_of(*staged, *sector, schools_of(layers), observation.recipe().measure.extinction),
+                              rows(ping), range, sector->range().count, options.display.shadow_db, at);
+        }
+        return echogram_column(*staged, *sector, placement(ping), *of, shown, range);
       },
       work);
   engine->rest();
   if (!made) return pass_on(made);
+  for (const auto& of_ping : shadow) out.shadow.insert(out.shadow.end(), of_ping.begin(), of_ping.end());
   out.echogram = std::move(*made);
   return out;
 }

@@ -17,9 +17,10 @@ struct DrawnEchogram {
   ObservationProduct product;                 ///< the pings that are shown, and the schools that are asked for
   std::unique_ptr<EchogramPyramid> echogram;  ///< null without raw files
   std::vector<EchogramSchool> schools;
-  std::string of;           ///< what it is of
-  TimelineHeights heights;  ///< that it covers
-  SvScale scale;            ///< unless a user chose another
+  std::vector<EchogramStretch> shadow;  ///< of the schools that are shown, where the options ask for it
+  std::string of;                       ///< what it is of
+  TimelineHeights heights;              ///< that it covers
+  SvScale scale;                        ///< unless a user chose another
   bool searched = false;
   bool filtered = false;  ///< its noise was removed
 };

@@ -65,6 +65,7 @@ TimelineObservation shown(const DrawnEchogram& drawn, const DrawnLine& line) {
   out.line_name = line.name;
   out.refused = drawn.product.rejected;
   out.schools = drawn.schools;
+  out.shadow = drawn.shadow;
   const auto& pings = drawn.product.pings;
   for (std::size_t i = 0; i < pings.size(); ++i) {
     if (!pings[i].bad) continue;

@@ -120,14 +120,14 @@ void describe(Visitor& v, DisplayParams& p) {
            .suits = "slice- volume observation-map timeline echogram"});
   v.field("shadow", p.shadow,
           {.text = "show what lies in the shadow of the schools that are shown, by the recipe's extinction: hatched in "
-                   "slices, as lines along its beams in the volume",
-           .suits = "slice- volume"});
+                   "slices and echograms, as lines along its beams in the volume",
+           .suits = kShown});
   v.field("shadow_db", p.shadow_db,
           {.unit = "dB",
            .min = 0.1,
            .max = 20,
            .text = "two-way loss from which a sample lies in shadow",
-           .suits = "slice- volume"});
+           .suits = kShown});
   v.field("grid_lines", p.grid_lines, {.text = "lines of the axes across slices", .flag = "grid", .suits = "slice-"});
   v.field("north_up", p.north_up,
           {.text = "north points up in slices from above; off = the bow does",

@@ -74,13 +74,17 @@ std::optional<double> weak_below(const DisplayParams& display) {
   return display.weak == NoiseLook::shown ? std::nullopt : std::optional(display.weak_below_db);
 }
 
-std::vector<int> shadow_of_schools(const StagedPing& ping, const Sector& sector, std::span<const MaskLayer> masks,
-                                   const ExtinctionParams& extinction, const DisplayParams& display) {
+std::vector<const PingMask*> schools_of(std::span<const MaskLayer> masks) {
   std::vector<const PingMask*> schools;
   for (const MaskLayer& layer : masks) {
     if (layer.mask != nullptr) schools.push_back(layer.mask.get());
   }
-  return shadow_from(ping, sector, schools, extinction, display.shadow_db);
+  return schools;
+}
+
+std::vector<int> shadow_of_schools(const StagedPing& ping, const Sector& sector, std::span<const MaskLayer> masks,
+                                   const ExtinctionParams& extinction, const DisplayParams& display) {
+  return shadow_from(ping, sector, schools_of(masks), extinction, display.shadow_db);
 }
 
 }  // namespace sonar

@@ -34,4 +34,7 @@ namespace sonar {
                                                  std::span<const MaskLayer> masks, const ExtinctionParams& extinction,
                                                  const DisplayParams& display);
 
+/// The schools among masks that are drawn.
+[[nodiscard]] std::vector<const PingMask*> schools_of(std::span<const MaskLayer> masks);
+
 }  // namespace sonar

@@ -93,6 +93,7 @@ class ObservationIntegral {
     IntegrationInput input;
     input.sv = staged->sv.counts.view();
     input.flags = staged->sv.flags.view();
+    input.filtered = std::as_const(*staged->filtered).counts.view();
     input.sector = &engine_.sector();
     input.grid = &engine_.grid();
     input.background = staged->background();
@@ -100,11 +101,13 @@ class ObservationIntegral {
     input.seabed = staged->seabed.found ? &staged->seabed : nullptr;
     input.pulse_m = observation.sound_speed_mps * observation.pulse_length_s / 2.0;
     if (const auto of_ping = schools_.find(ping); of_ping != schools_.end()) input.schools = of_ping->second.masks;
+    input.extinction = engine_.recipe().measure.extinction;
     return integrate_ping(input, layout_);
   }
 
   void take(std::int64_t ping, const PingCells& cells, UnitSums& sums) const {
     sums.add(cells);
+    sums.extinction_corrected = engine_.recipe().measure.extinction.correct;
     if (!in_product(ping)) sums.schools_known = false;
     const auto of_ping = schools_.find(ping);
     if (of_ping == schools_.end()) return;

@@ -31,7 +31,7 @@ struct Integrated {
 
 /// Echo integration of a survey over sailed distance, range bins and depth channels, from the unfiltered Sv with the
 /// background taken off. Rejected schools are water like any other; pings that are bad, in the files or in a product, give
-/// nothing.
+/// nothing. Where the recipe corrects for extinction, what schools took out of the beams is given back.
 /// recipe      of the products, where there are some
 /// product_of  asked for one observation after the other
 /// errors      bad_parameter; mismatch: a product of other pings, or no transect has any; unsupported: no observation has a grid, or raw files are

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/integrate/integration_rows.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -23,6 +26,17 @@ constexpr double kDbOfRelative = 10.0 / std::numbers::ln10;
 double db_or_unknown(double linear) { return linear > 0.0 ? db_from_linear(linear) : kUnknown; }
 
 double ratio(double a, double b) { return b > 0.0 ? a / b : kUnknown; }
+
+/// What of some echo was given back for extinction, added to a row.
+template <class Row>
+void add_extinction(double nasc_of_echo, const CellSums& cell, Row& row) {
+  const auto add = [nasc_of_echo](double& nasc, double echo_m2) {
+    nasc = (std::isnan(nasc) ? 0.0 : nasc) + nasc_of_echo * echo_m2;
+  };
+  add(row.nasc_extinction_m2_nmi2, cell.extinction_m2);
+  add(row.nasc_extinction_low_m2_nmi2, cell.extinction_low_m2);
+  add(row.nasc_extinction_high_m2_nmi2, cell.extinction_high_m2);
+}
 
 NascRow nasc_row(const EffortUnit& unit, const UnitSums& sums, const CellLayout& layout, const CellKey& key,
                  const CellSums& cell) {
@@ -58,6 +72,7 @@ NascRow nasc_row(const EffortUnit& unit, const UnitSums& sums, const CellLayout&
   row.nasc_school_m2_nmi2 = nasc_of_echo * cell.school_m2;
   row.nasc_school_se_m2_nmi2 = nasc_of_echo * std::sqrt(cell.school_m4);
   row.nasc_rest_m2_nmi2 = row.nasc_m2_nmi2 - row.nasc_school_m2_nmi2;
+  if (sums.extinction_corrected) add_extinction(nasc_of_echo, cell, row);
   return row;
 }
 
@@ -94,6 +109,7 @@ void add_column(const UnitSums& sums, const CellLayout& layout, EffortRow& row) 
     school += nasc_of_echo * of.sums.school_m2;
     variance += nasc_of_echo * nasc_of_echo * of.sums.whole_m4;
     school_variance += nasc_of_echo * nasc_of_echo * of.sums.whole_school_m4;
+    if (sums.schools_known && sums.extinction_corrected) add_extinction(nasc_of_echo, of.sums, row);
     all += of.sums;
   }
   row.volume_m3 = all.heard_m3;
@@ -131,27 +147,29 @@ EffortRow effort_row(const EffortUnit& unit, const UnitSums& sums, const CellLay
   return row;
 }
 
-/// Figures of EDSUs, or of transects, on the way up.
-struct Figures {
-  std::vector<WeightedValue> all;
-  std::vector<WeightedValue> school;
-  std::vector<WeightedValue> layer;
+/// A column that is averaged on the way up, weighted by distance.
+struct AveragedColumn {
+  double EffortRow::*of_unit;
+  double StratumRow::*mean;
+  double StratumRow::*se;  ///< null = none is told
 };
+constexpr std::array<AveragedColumn, 6> kAveraged{{
+    {&EffortRow::nasc_m2_nmi2, &StratumRow::nasc_m2_nmi2, &StratumRow::nasc_se_m2_nmi2},
+    {&EffortRow::nasc_school_m2_nmi2, &StratumRow::nasc_school_m2_nmi2, &StratumRow::nasc_school_se_m2_nmi2},
+    {&EffortRow::nasc_layer_m2_nmi2, &StratumRow::nasc_layer_m2_nmi2, &StratumRow::nasc_layer_se_m2_nmi2},
+    {&EffortRow::nasc_extinction_m2_nmi2, &StratumRow::nasc_extinction_m2_nmi2, nullptr},
+    {&EffortRow::nasc_extinction_low_m2_nmi2, &StratumRow::nasc_extinction_low_m2_nmi2, nullptr},
+    {&EffortRow::nasc_extinction_high_m2_nmi2, &StratumRow::nasc_extinction_high_m2_nmi2, nullptr},
+}};
 
-MeanWithError mean_alone(const std::vector<WeightedValue>& values) { return {transect_mean(values).mean, kUnknown}; }
-
-void put(StratumRow& row, const MeanWithError& all, const MeanWithError& school, const MeanWithError& layer) {
-  row.nasc_m2_nmi2 = all.mean;
-  row.nasc_se_m2_nmi2 = all.se;
-  row.nasc_school_m2_nmi2 = school.mean;
-  row.nasc_school_se_m2_nmi2 = school.se;
-  row.nasc_layer_m2_nmi2 = layer.mean;
-  row.nasc_layer_se_m2_nmi2 = layer.se;
+void put(StratumRow& row, const AveragedColumn& column, const MeanWithError& of) {
+  row.*column.mean = of.mean;
+  if (column.se != nullptr) row.*column.se = of.se;
 }
 
 /// A transect's mean over its EDSUs by their lengths. Neighbouring ones are alike, so they tell no error of it.
 std::vector<StratumRow> transect_rows(std::span<const EffortRow> effort) {
-  std::vector<Figures> figures;
+  std::vector<std::vector<const EffortRow*>> units;
   std::vector<StratumRow> rows;
   for (const EffortRow& unit : effort) {
     if (unit.edsu == 0) continue;
@@ -159,56 +177,62 @@ std::vector<StratumRow> transect_rows(std::span<const EffortRow> effort) {
     while (at < rows.size() && rows[at].transect != unit.transect) ++at;
     if (at == rows.size()) {
       rows.push_back({.level = "transect", .stratum = unit.stratum, .transect = unit.transect, .n_transects = 1});
-      figures.emplace_back();
+      units.emplace_back();
     }
     ++rows[at].n_edsu;
     rows[at].distance_nmi += unit.distance_nmi;
-    figures[at].all.push_back({unit.distance_nmi, unit.nasc_m2_nmi2});
-    figures[at].school.push_back({unit.distance_nmi, unit.nasc_school_m2_nmi2});
-    figures[at].layer.push_back({unit.distance_nmi, unit.nasc_layer_m2_nmi2});
+    units[at].push_back(&unit);
   }
   for (std::size_t at = 0; at < rows.size(); ++at) {
-    put(rows[at], mean_alone(figures[at].all), mean_alone(figures[at].school), mean_alone(figures[at].layer));
+    for (const AveragedColumn& column : kAveraged) {
+      std::vector<WeightedValue> values;
+      for (const EffortRow* unit : units[at]) values.push_back({unit->distance_nmi, unit->*column.of_unit});
+      put(rows[at], column, {transect_mean(values).mean, kUnknown});
+    }
   }
   return rows;
 }
 
-std::vector<StratumRow> stratum_rows(std::span<const StratumRow> transects) {
-  std::map<std::string, std::pair<StratumRow, Figures>> strata;
-  for (const StratumRow& transect : transects) {
-    auto& [row, figures] = strata[transect.stratum];
-    row.level = "stratum";
-    row.stratum = transect.stratum;
-    ++row.n_transects;
-    row.n_edsu += transect.n_edsu;
-    row.distance_nmi += transect.distance_nmi;
-    figures.all.push_back({transect.distance_nmi, transect.nasc_m2_nmi2});
-    figures.school.push_back({transect.distance_nmi, transect.nasc_school_m2_nmi2});
-    figures.layer.push_back({transect.distance_nmi, transect.nasc_layer_m2_nmi2});
+/// What rows on the level below add up to.
+StratumRow row_over(const char* level, std::span<const StratumRow* const> parts) {
+  StratumRow row;
+  row.level = level;
+  for (const StratumRow* part : parts) {
+    row.n_transects += part->n_transects;
+    row.n_edsu += part->n_edsu;
+    row.distance_nmi += part->distance_nmi;
   }
+  return row;
+}
+
+std::vector<StratumRow> stratum_rows(std::span<const StratumRow> transects) {
+  std::map<std::string, std::vector<const StratumRow*>> strata;
+  for (const StratumRow& transect : transects) strata[transect.stratum].push_back(&transect);
   std::vector<StratumRow> rows;
-  for (auto& [stratum, one] : strata) {
-    put(one.first, transect_mean(one.second.all), transect_mean(one.second.school), transect_mean(one.second.layer));
-    rows.push_back(std::move(one.first));
+  for (const auto& [stratum, own] : strata) {
+    StratumRow& row = rows.emplace_back(row_over("stratum", own));
+    row.stratum = stratum;
+    for (const AveragedColumn& column : kAveraged) {
+      std::vector<WeightedValue> values;
+      for (const StratumRow* transect : own) values.push_back({transect->distance_nmi, transect->*column.mean});
+      put(row, column, transect_mean(values));
+    }
   }
   return rows;
 }
 
 StratumRow survey_row(std::span<const StratumRow> strata) {
-  StratumRow row;
-  row.level = "survey";
-  std::vector<WeightedMean> all;
-  std::vector<WeightedMean> school;
-  std::vector<WeightedMean> layer;
-  for (const StratumRow& stratum : strata) {
-    row.n_transects += stratum.n_transects;
-    row.n_edsu += stratum.n_edsu;
-    row.distance_nmi += stratum.distance_nmi;
-    all.push_back({stratum.distance_nmi, {stratum.nasc_m2_nmi2, stratum.nasc_se_m2_nmi2}});
-    school.push_back({stratum.distance_nmi, {stratum.nasc_school_m2_nmi2, stratum.nasc_school_se_m2_nmi2}});
-    layer.push_back({stratum.distance_nmi, {stratum.nasc_layer_m2_nmi2, stratum.nasc_layer_se_m2_nmi2}});
+  std::vector<const StratumRow*> own;
+  for (const StratumRow& stratum : strata) own.push_back(&stratum);
+  StratumRow row = row_over("survey", own);
+  for (const AveragedColumn& column : kAveraged) {
+    std::vector<WeightedMean> values;
+    for (const StratumRow& stratum : strata) {
+      const double se = column.se != nullptr ? stratum.*column.se : kUnknown;
+      values.push_back({stratum.distance_nmi, {stratum.*column.mean, se}});
+    }
+    put(row, column, stratified_mean(values));
   }
-  put(row, stratified_mean(all), stratified_mean(school), stratified_mean(layer));
   return row;
 }
 
@@ -229,6 +253,16 @@ IntegrationTables integration_tables(std::span<const EffortUnit> units, std::spa
   tables.strata.insert(tables.strata.end(), strata.begin(), strata.end());
   if (!strata.empty()) tables.strata.push_back(survey_row(strata));
   return tables;
+}
+
+std::string extinction_text(const IntegrationTables& tables) {
+  if (tables.strata.empty() || std::isnan(tables.strata.back().nasc_extinction_m2_nmi2)) return {};
+  const StratumRow& survey = tables.strata.back();
+  return fmt::format(
+      "schools' extinction is corrected (measure.extinction.correct): {:.3g} m2 nmi-2 of the NASC was given back, "
+      "{:.3g} "
+      "to {:.3g} at the ends of the ratio's interval; see nasc_extinction_m2_nmi2",
+      survey.nasc_extinction_m2_nmi2, survey.nasc_extinction_low_m2_nmi2, survey.nasc_extinction_high_m2_nmi2);
 }
 
 }  // namespace sonar

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "model/integration.h"
@@ -22,5 +23,8 @@ struct IntegrationTables {
 /// threads  pure
 [[nodiscard]] IntegrationTables integration_tables(std::span<const EffortUnit> units, std::span<const UnitSums> sums,
                                                    const CellLayout& layout);
+
+/// What of the survey's NASC was given back for extinction; empty where nothing was corrected.
+[[nodiscard]] std::string extinction_text(const IntegrationTables& tables);
 
 }  // namespace sonar

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "pipeline/integrate/integrate_params.h"
@@ -66,6 +67,45 @@ TEST(IntegrationRows, of_one_cell_by_hand) {
   EXPECT_NEAR(row.nasc_school_m2_nmi2 + row.nasc_rest_m2_nmi2, row.nasc_m2_nmi2, 1e-9);
   EXPECT_NEAR(row.nasc_layer_m2_nmi2, 2.0 * row.nasc_m2_nmi2, 1e-9);
   EXPECT_NEAR(tables.effort.at(0).nasc_m2_nmi2, row.nasc_m2_nmi2, 1e-9);
+}
+
+// Two units, 1 and 3 nmi long, of one cell 10 m high whose echo was 1e-6 and 3e-6; of it a quarter, of the second nothing,
+// was given back. By hand: NASC 4.3101e7 x 1e-5 = 431.0 of the first, 107.8 of it; transect (107.8 + 3 x 0) / 4.
+TEST(IntegrationRows, what_was_given_back_for_extinction_is_told_on_every_level) {
+  const auto sums_of = [](double sv, double share) {
+    UnitSums sums;
+    sums.pings = 1;
+    sums.area_m2[0] = 100.0;
+    CellSums one = cell(1000.0, 1000.0, sv);
+    one.extinction_m2 = share * one.echo_m2;
+    one.extinction_low_m2 = 0.8 * one.extinction_m2;
+    one.extinction_high_m2 = 1.2 * one.extinction_m2;
+    sums.cells[{0, 0}] = one;
+    sums.extinction_corrected = true;
+    return sums;
+  };
+  const std::vector<EffortUnit> units{unit("A", 1, 1852.0), unit("A", 2, 3.0 * 1852.0)};
+  std::vector<UnitSums> sums{sums_of(1e-6, 0.25), sums_of(3e-6, 0.0)};
+  const IntegrationTables tables = integration_tables(units, sums, {});
+  const double given_back = 0.25 * kNasc * 1e-6 * 10.0;
+  EXPECT_NEAR(tables.nasc.at(0).nasc_extinction_m2_nmi2, given_back, 1e-6);
+  EXPECT_NEAR(tables.nasc.at(0).nasc_extinction_low_m2_nmi2, 0.8 * given_back, 1e-6);
+  EXPECT_NEAR(tables.nasc.at(0).nasc_extinction_high_m2_nmi2, 1.2 * given_back, 1e-6);
+  EXPECT_NEAR(tables.effort.at(0).nasc_extinction_m2_nmi2, given_back, 1e-6);
+  EXPECT_EQ(tables.effort.at(1).nasc_extinction_m2_nmi2, 0.0);
+  ASSERT_EQ(tables.strata.size(), 3U);
+  for (const StratumRow& row : tables.strata) {
+    EXPECT_NEAR(row.nasc_extinction_m2_nmi2, given_back / 4.0, 1e-6) << row.level;
+    EXPECT_NEAR(row.nasc_extinction_high_m2_nmi2, 1.2 * given_back / 4.0, 1e-6) << row.level;
+  }
+  EXPECT_NE(extinction_text(tables).find("26.9 m2 nmi-2"), std::string::npos) << extinction_text(tables);
+
+  for (UnitSums& one : sums) one.extinction_corrected = false;
+  const IntegrationTables off = integration_tables(units, sums, {});
+  EXPECT_TRUE(std::isnan(off.nasc.at(0).nasc_extinction_m2_nmi2));
+  EXPECT_TRUE(std::isnan(off.effort.at(0).nasc_extinction_m2_nmi2));
+  EXPECT_TRUE(std::isnan(off.strata.at(2).nasc_extinction_m2_nmi2));
+  EXPECT_EQ(extinction_text(off), "");
 }
 
 TEST(IntegrationRows, a_channel_of_a_unit_is_its_mean_over_all_ranges_as_high_as_where_it_is_highest) {

@@ -21,6 +21,7 @@ struct UnitSums {
   std::int64_t pings = 0;                                  ///< that were used
   std::set<std::pair<std::string, std::int64_t>> schools;  ///< observation and school_id of those seen
   bool schools_known = true;                               ///< schools were looked for in every ping that was used
+  bool extinction_corrected = false;                       ///< what schools took out of the beams was given back
 
   void add(const PingCells& ping);
 };

@@ -35,6 +35,10 @@ struct CellSums {
   double school_m4 = 0.0;        ///< as variance_m4, of school_m2
   double whole_school_m4 = 0.0;  ///< as whole_m4, of school_m2
   double noise_m4 = 0.0;         ///< variance that echo_m2 would have by the fading of the background alone
+  // Of echo_m2, what schools had taken out of the beams and was given back; 0 where nothing is corrected.
+  double extinction_m2 = 0.0;
+  double extinction_low_m2 = 0.0;   ///< what it would be at the lower end of the ratio's interval
+  double extinction_high_m2 = 0.0;  ///< at the upper one
 
   CellSums& operator+=(const CellSums& other);
   friend bool operator==(const CellSums&, const CellSums&) = default;

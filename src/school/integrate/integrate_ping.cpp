@@ -12,6 +12,7 @@
 #include "school/fading.h"
 #include "school/integrate/depth_parts.h"
 #include "school/measure/echo_statistics.h"
+#include "school/measure/extinction.h"
 #include "school/measure/measure_input.h"
 
 namespace sonar {
@@ -78,25 +79,58 @@ struct Voxel {
   double noise = 0.0;  ///< the expected background
   double alike = 1.0;
   double inside = 1.0;  ///< share of it that lies in any channel
+  // What it would be without extinction, over what is heard: at the ratio and at the ends of its interval.
+  double gain = 1.0;
+  double gain_low = 1.0;
+  double gain_high = 1.0;
   bool heard = false;
   bool member = false;
 };
+
+/// Gains of a ping's beams; empty where nothing is corrected.
+struct Gains {
+  PingGain at_ratio;
+  PingGain low;
+  PingGain high;
+};
+
+Gains gains_of(const IntegrationInput& ping) {
+  if (!ping.extinction.correct || ping.schools.empty()) return {};
+  MeasureInput heard;
+  heard.sv = ping.sv;
+  heard.filtered = ping.filtered;
+  heard.flags = ping.flags;
+  heard.sector = ping.sector;
+  heard.background = ping.background;
+  const auto at = [&](double ratio) { return ping_gain(heard, ping.schools, ratio, ping.extinction.most_db); };
+  return {at(ping.extinction.ratio), at(ping.extinction.ratio_low), at(ping.extinction.ratio_high)};
+}
+
+double gain_at(const PingGain& gain, std::size_t row, std::size_t sample) {
+  return row < gain.size() && !gain[row].within.empty() ? gain[row].within[sample] : 1.0;
+}
 
 /// Exponential echo of mean m has the variance m^2, and 2 m^2 as mean square.
 void add_part(const Voxel& voxel, const VoxelPart& part, CellSums& cell) {
   const double volume = voxel.volume_m3 * part.share;
   cell.water_m3 += volume;
   if (!voxel.heard) return;
-  const double echo = (voxel.sv - voxel.noise) * volume;
-  const double variance = 0.5 * voxel.alike * voxel.sv * voxel.sv * volume * volume;
+  const double heard = (voxel.sv - voxel.noise) * volume;
+  const double sv = voxel.gain * voxel.sv;
+  const double noise = voxel.gain * voxel.noise;
+  const double echo = (sv - noise) * volume;
+  const double variance = 0.5 * voxel.alike * sv * sv * volume * volume;
   const double whole = variance / part.share * voxel.inside;
   cell.heard_m3 += volume;
   cell.echo_m2 += echo;
-  cell.noise_m2 += voxel.noise * volume;
+  cell.noise_m2 += noise * volume;
   cell.beam_m3 += volume * part.beam;
   cell.variance_m4 += variance;
   cell.whole_m4 += whole;
-  cell.noise_m4 += voxel.alike * voxel.noise * voxel.noise * volume * volume;
+  cell.noise_m4 += voxel.alike * noise * noise * volume * volume;
+  cell.extinction_m2 += (voxel.gain - 1.0) * heard;
+  cell.extinction_low_m2 += (voxel.gain_low - 1.0) * heard;
+  cell.extinction_high_m2 += (voxel.gain_high - 1.0) * heard;
   if (!voxel.member) return;
   cell.school_m3 += volume;
   cell.school_m2 += echo;
@@ -119,6 +153,9 @@ CellSums& CellSums::operator+=(const CellSums& other) {
   school_m4 += other.school_m4;
   whole_school_m4 += other.whole_school_m4;
   noise_m4 += other.noise_m4;
+  extinction_m2 += other.extinction_m2;
+  extinction_low_m2 += other.extinction_low_m2;
+  extinction_high_m2 += other.extinction_high_m2;
   return *this;
 }
 
@@ -136,6 +173,7 @@ PingCells integrate_ping(const IntegrationInput& ping, const CellLayout& layout)
   out.cells.resize(out.area_m2.size() * static_cast<std::size_t>(out.channels));
   const auto runs = runs_by_row(ping.schools, rows);
   std::vector<char> member(static_cast<std::size_t>(samples));
+  const Gains gains = gains_of(ping);
   std::optional<DepthParts> parts;  // of the row before, which stabilised beams of a fan share
   for (int row = 0; row < rows; ++row) {
     const auto at = static_cast<std::size_t>(row);
@@ -160,6 +198,9 @@ PingCells integrate_ping(const IntegrationInput& ping, const CellLayout& layout)
       if (voxel.heard) {
         voxel.sv = linear_from_count(counts[s]);
         voxel.noise = noise(sample);
+        voxel.gain = gain_at(gains.at_ratio, at, s);
+        voxel.gain_low = gain_at(gains.low, at, s);
+        voxel.gain_high = gain_at(gains.high, at, s);
       }
       voxel.inside = 0.0;
       for (const VoxelPart& part : of_voxel) voxel.inside += part.share;

@@ -97,6 +97,7 @@ Result<BuiltEchogram> built_echogram(const EchogramWish& wish, PixelSize size) {
   TimelinePanel panel = panel_of(drawn, wish.of, wish, echogram_text(*wish.survey, wish.of.name, wish.open));
   panel.observation.selected = wish.selected;
   panel.observation.chosen_echo = wish.chosen_echo;
+  panel.observation.shadow = wish.shadow;
   if (wish.state && wish.open) add_marked(panel.observation, *wish.state, *wish.open);
   if (wish.heights) panel.style.shown_heights = wish.heights;
   const bool two = wish.below && size.height >= kTwoFrom_em * theme.text_px;

@@ -29,7 +29,8 @@ struct EchogramWish {
   ProductPtr product;                  ///< null where nothing is measured
   JournalStatePtr state;               ///< null where nothing is marked
   std::optional<std::int64_t> selected;
-  RefusedPtr refused;  ///< that are marked; null = none
+  RefusedPtr refused;                   ///< that are marked; null = none
+  std::vector<EchogramStretch> shadow;  ///< of schools, as far as it is known
   std::int64_t chosen_echo = 0;
   std::optional<TimelineInterval> shown;  ///< part of the time axis; empty = all
   std::optional<TimelineHeights> heights;

@@ -7,6 +7,20 @@
 #include "session/refused_layer.h"
 
 namespace sonar {
+namespace {
+
+/// Empty where no shadow is to be shown, or nothing is there to cast one.
+std::optional<ShadowWish> shadow_of(const EchogramWish& wish) {
+  if (!wish.display.shadow || !wish.display.masks || !wish.open || !wish.product || !wish.of.echogram) return {};
+  return ShadowWish{wish.open,
+                    wish.product,
+                    wish.of.name.of,
+                    wish.of.echogram->range(),
+                    wish.display.shadow_db,
+                    wish.display.rejected};
+}
+
+}  // namespace
 
 EchogramModel::EchogramModel(Workspace& workspace, std::shared_ptr<Echograms> echograms)
     : LivePicture(workspace), workspace_(workspace), echograms_(std::move(echograms)) {
@@ -130,11 +144,22 @@ LivePicture::Build EchogramModel::build(const PictureLook& look) {
   wish.shown = shown_;
   wish.heights = heights_;
   wish.look = look;
-  return [wish = std::move(wish)](PixelSize size, const CancelToken&, const Show& show) -> Result<void> {
-    auto built = built_echogram(wish, size);
-    if (!built) return pass_on(built);
-    show({std::move(built->frame), std::nullopt, std::move(built->places)});
-    return {};
+  return [wish = std::move(wish), shadows = shadows_, give_way = GivesWay(workspace_.document.right_of_way())](
+             PixelSize size, const CancelToken& token, const Show& show) mutable -> Result<void> {
+    const auto shadow = shadow_of(wish);
+    const auto draw = [&]() -> Result<void> {
+      if (shadow) wish.shadow = shadows->so_far(*shadow);
+      auto built = built_echogram(wish, size);
+      if (!built) return pass_on(built);
+      show({std::move(built->frame), std::nullopt, std::move(built->places)});
+      return {};
+    };
+    Result<void> done = draw();
+    if (done && shadow) {
+      shadows->work_out(
+          *shadow, token, [&] { give_way(); }, [&] { done = draw(); });
+    }
+    return done;
   };
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "session/echograms/echogram_build.h"
+#include "session/echograms/echogram_shadows.h"
 #include "session/listening.h"
 #include "session/live_picture.h"
 #include "session/timelines/echograms.h"
@@ -93,6 +94,7 @@ class EchogramModel : public LivePicture {
 
   Workspace& workspace_;
   std::shared_ptr<Echograms> echograms_;
+  std::shared_ptr<EchogramShadows> shadows_ = std::make_shared<EchogramShadows>();
   bool of_fan_ = false;
   EchogramHeight height_ = EchogramHeight::range;
   std::optional<SlicePlaces> held_;

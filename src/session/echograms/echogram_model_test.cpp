@@ -7,9 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <variant>
+#include <vector>
 
+#include "pipeline/stages/voxel_statistics.h"
 #include "pipeline/survey/test_ek60.h"
 #include "publish/picture.h"
 #include "session/test_survey.h"
@@ -91,6 +94,82 @@ TEST_F(Echogram, ACellIsTheSampleOfItsPingAndBeam) {
     }
     EXPECT_GT(seen, 1000);
   }
+}
+
+// The shadow of a beam begins where slices have it, sample for sample; it is worked out once.
+TEST_F(Echogram, ShadowBeginsWhereSlicesHaveIt) {
+  document().detect({0});
+  settle();
+  const ProductPtr product = document().product(0);
+  ASSERT_TRUE(product && !product->masks.empty());
+  const int row = product->masks.front().mask.runs.front().row;
+  const int beams = shown().sector().beams();
+  ShadowWish wish{document().shown(), product, {row / beams, row % beams, EchogramHeight::range}, {}, 1e-4, true};
+  wish.range = echogram_range(shown().sector(), {}, wish.of);
+  EchogramShadows shadows;
+  int pictures = 0;
+  int pings = 0;
+  const auto work_out = [&](const CancelToken& token) {
+    shadows.work_out(
+        wish, token, [&] { ++pings; }, [&] { ++pictures; });
+  };
+  CancelToken stopped;
+  stopped.cancel();
+  work_out(stopped);
+  EXPECT_EQ(pings + pictures, 0);
+  work_out({});
+  EXPECT_GT(pictures, 0);
+  const int read = pings;
+  EXPECT_GT(read, 2);
+  std::vector<EchogramStretch> expected;
+  for (std::int64_t ping = 0; ping < shown().pings(); ++ping) {
+    std::vector<const PingMask*> masks;
+    for (const SchoolMask& mask : product->masks) {
+      if (mask.ping_index == ping) masks.push_back(&mask.mask);
+    }
+    const auto staged = document().shown()->ping(ping);
+    ASSERT_TRUE(staged);
+    const int from = shadow_from(**staged, shown().sector(), masks, shown().recipe().measure.extinction,
+                                 wish.least_db)[static_cast<std::size_t>(row)];
+    if (from == shown().sector().range().count) continue;
+    const double spacing_m = shown().sector().range().spacing_m;
+    expected.push_back({static_cast<std::size_t>(ping), shown().sector().range().range_m(from) - 0.5 * spacing_m,
+                        heights_of(wish.range).last_m});
+  }
+  const auto found = shadows.so_far(wish);
+  ASSERT_GT(expected.size(), 2U);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].ping, expected[i].ping);
+    EXPECT_NEAR(found[i].from_m, expected[i].from_m, 1e-6);
+    EXPECT_NEAR(found[i].to_m, expected[i].to_m, 1e-6);
+  }
+  work_out({});
+  EXPECT_EQ(pings, read) << "what is known is kept";
+  wish.least_db = 0.2;
+  EXPECT_TRUE(shadows.so_far(wish).empty()) << "another question";
+}
+
+// The slices' switch: on, with a ratio at which the small schools are dense, it changes the picture; off, it takes that back.
+TEST_F(Echogram, TheSlicesSwitchHatchesShadow) {
+  Recipe recipe = document().recipe();
+  recipe.measure.extinction.ratio = 60.0;
+  document().use_recipe(recipe);
+  settle();
+  document().detect({0});
+  settle();
+  const ProductPtr product = document().product(0);
+  ASSERT_TRUE(product && !product->masks.empty());
+  const int row = product->masks.front().mask.runs.front().row;
+  workspace_.slices.set({row / shown().sector().beams(), row % shown().sector().beams()});
+  settle();
+  const Image plain = echogram_.image();
+  ASSERT_TRUE(workspace_.display.set("shadow", true));
+  settle();
+  EXPECT_NE(echogram_.image().pixels, plain.pixels);
+  ASSERT_TRUE(workspace_.display.set("shadow", false));
+  settle();
+  EXPECT_EQ(echogram_.image().pixels, plain.pixels);
 }
 
 TEST_F(Echogram, FollowsTheSlicesUnlessItIsHeld) {

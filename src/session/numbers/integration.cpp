@@ -43,6 +43,9 @@ std::string notes_of(const Integrated& done) {
   add(done.left_out, "not integrated: of another sounder, or without a grid of fans and beams");
   add(done.without_pings, "no ping lies in this transect");
   add(done.without_schools, "schools were not measured: its columns of schools are empty");
+  if (const std::string extinction = extinction_text(done.tables); !extinction.empty()) {
+    text += (text.empty() ? "" : "\n") + extinction;
+  }
   return text;
 }
 

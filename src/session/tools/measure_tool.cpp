@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/units.h"
 #include "geo/geodesic.h"
 #include "session/tools/brush_tool.h"
 #include "view/slices/slice_area.h"
@@ -18,6 +19,15 @@ bool heading_known(const OpenObservation& observation, std::int64_t ping) {
   return std::isfinite(observation.files().navigation[static_cast<std::size_t>(ping)].heading_deg);
 }
 
+/// All that the ping's schools are measured with.
+std::vector<const PingMask*> schools_in(const Document& document, std::int64_t ping_index) {
+  std::vector<const PingMask*> masks;
+  for (const auto& school : document.state().schools) {
+    if (const auto* there = in_ping(school->masks, ping_index)) masks.push_back(&there->mask);
+  }
+  return masks;
+}
+
 AreaFigures area_of(const Workspace& workspace, const Measurement& measured) {
   const OpenObservation& observation = *workspace.document.shown();
   const StagedPing& ping = *workspace.document.staged();
@@ -27,7 +37,14 @@ AreaFigures area_of(const Workspace& workspace, const Measurement& measured) {
   AreaFigures area;
   for (const Run& run : runs) area.never += run.count;
   area.never -= static_cast<std::int64_t>(mask.voxels());
-  area.statistics = statistics_of(mask, ping, observation.sector(), observation.placement(ping.ping_index));
+  const Placement placement = observation.placement(ping.ping_index);
+  area.statistics = statistics_of(mask, ping, observation.sector(), placement);
+  if (const ExtinctionParams& extinction = observation.recipe().measure.extinction; extinction.correct) {
+    const double heard_m2 = area.statistics.echo.backscatter_m2;
+    area.statistics = corrected_statistics_of(mask, ping, observation.sector(), placement,
+                                              schools_in(workspace.document, ping.ping_index), extinction);
+    area.extinction_db = db_from_linear(area.statistics.echo.backscatter_m2 / heard_m2);
+  }
   if (through) area.fans = observation.sector().fans();
   return area;
 }
@@ -104,7 +121,11 @@ void MeasureTool::hear(DocumentChange change) {
   const auto& shown = workspace_.document.shown();
   if (change == DocumentChange::observation && (!shown || shown->identity() != measured->observation)) return cancel();
   // Another calibration stages the same ping anew.
-  if (change == DocumentChange::ping || change == DocumentChange::observation) measure_again();
+  const bool corrected = measured->area.extinction_db.has_value();  // other schools take out other sound
+  if (change == DocumentChange::ping || change == DocumentChange::observation ||
+      (corrected && change == DocumentChange::state)) {
+    measure_again();
+  }
 }
 
 void MeasureTool::measure_again() {

@@ -215,6 +215,55 @@ TEST_F(MeasureAtWork, StatisticsOfASchoolsMaskAreThoseOfItsRow) {
   EXPECT_NEAR(of_mask.extents.length_m, row.length_m, 1e-9);
 }
 
+// Corrected for extinction, a school's voxels are measured as its row is, whose figures the stage `measure` makes; a box says
+// what it was given back, and no more is where its school is gone. A ratio so large that the small school casts a shadow.
+TEST(MeasureCorrected, FiguresAreThoseOfASchoolThatIsCorrected) {
+  Recipe recipe;
+  recipe.measure.extinction.correct = true;
+  recipe.measure.extinction.ratio = 20.0;
+  SlicesApp app(recipe);
+  app.look_at_bright();
+  app.workspace().tool.set(ToolName::seed);
+  app.click(app.side(), SlicesApp::bright().voxel);
+  app.settle();
+  const PingMask mask = app.document().state().schools.at(0)->masks.pings.front().mask;
+  const ProductPtr product = app.document().product(0);
+  ASSERT_TRUE(product);
+  const SchoolPingRow& row = product->school_pings.at(0);
+  ASSERT_EQ(row.extinction_corrected, 1.0);
+  ASSERT_GT(row.extinction_loss_db, 0.1);
+  const auto& shown = *app.document().shown();
+  const StagedPing& ping = *app.document().staged();
+  const Placement placement = shown.placement(app.document().ping());
+  const std::vector<const PingMask*> schools{&mask};
+  const VoxelStatistics corrected =
+      corrected_statistics_of(mask, ping, shown.sector(), placement, schools, shown.recipe().measure.extinction);
+  EXPECT_NEAR(corrected.echo.backscatter_m2 / row.backscatter_m2, 1.0, 1e-9);
+  EXPECT_NEAR(corrected.echo.sv_mean_db, row.sv_mean_db, 1e-9);
+  const VoxelStatistics heard = statistics_of(mask, ping, shown.sector(), placement);
+  EXPECT_NEAR(1.0 - heard.echo.backscatter_m2 / corrected.echo.backscatter_m2, row.extinction_share, 0.002)
+      << "but for steps of counts, and voxels that noise hit";
+
+  app.workspace().tool.set(ToolName::measure);
+  const auto m = app.top().picture()->place_of(SlicesApp::bright().voxel);
+  ASSERT_TRUE(m);
+  for (const auto& [action, dx] :
+       {std::pair{PointerAction::press, -30.0}, {PointerAction::move, 20.0}, {PointerAction::release, 20.0}}) {
+    PointerEvent event{action, PointerButton::left, {m->x + dx, m->y + 0.7 * dx}};
+    event.shift = true;
+    app.top().pointer(event);
+  }
+  ASSERT_TRUE(app.workspace().measurement());
+  const auto given_back = app.workspace().measurement()->area.extinction_db;
+  ASSERT_TRUE(given_back);
+  EXPECT_GT(*given_back, 0.05);
+  EXPECT_THAT(measured_text(app.workspace()), HasSubstr("corrected for extinction by"));
+  app.ask("edit.undo");
+  app.settle();
+  ASSERT_TRUE(app.document().state().schools.empty());
+  EXPECT_EQ(app.workspace().measurement()->area.extinction_db, 0.0) << "no school is left to take sound out";
+}
+
 TEST_F(MeasureAtWork, EscapeEndsADragAndForgetsWhatWasMeasured) {
   const PixelPoint from = at(app_.top(), bright());
   app_.top().pointer({PointerAction::press, PointerButton::left, from});

@@ -104,6 +104,10 @@ std::vector<std::string> area_parts(const Measurement& measured, const Unit& uni
   parts.push_back(sv_text(echo));
   parts.push_back(sigma_text(echo));
   parts.push_back(extent_text(measured.area.statistics.extents, unit));
+  if (const auto& given_back = measured.area.extinction_db) {
+    parts.push_back(std::isnan(*given_back) ? std::string("corrected for extinction")
+                                            : fmt::format("corrected for extinction by {:.1f} dB", *given_back));
+  }
   if (echo.voxels > echo.heard) parts.push_back(fmt::format("{} faulty left out", echo.voxels - echo.heard));
   if (measured.area.never > 0) {
     parts.push_back(fmt::format("{} near transducer, surface or seabed left out", measured.area.never));
@@ -166,6 +170,7 @@ std::vector<Column> area_columns(const Measurement& measured, const Unit& unit) 
           {"Sv 95th percentile (dB re 1 m-1)", with_decimals(echo.sv_p95_db, 3)},
           {"Sv maximum (dB re 1 m-1)", with_decimals(echo.sv_max_db, 3)},
           {"sigma_bs total (m2)", shortest(echo.backscatter_m2)},
+          {"corrected for extinction by (dB)", with_decimals(measured.area.extinction_db.value_or(kUnknown), 3)},
           length_column("depth min", extents.depth_min_m, unit),
           length_column("depth max", extents.depth_max_m, unit),
           length_column("range min", extents.range_min_m, unit),

@@ -41,6 +41,8 @@ struct AreaFigures {
   VoxelStatistics statistics;  ///< of the voxels that could belong to a school, as its own figures would be
   std::int64_t never = 0;      ///< the others: near the transducer, at the surface, at or behind the seabed
   int fans = 0;                ///< how many it goes through; 0 = the slice alone
+  /// What schools took out of the beams is given back, and of sigma_bs so much was, dB; empty = figures are as heard.
+  std::optional<double> extinction_db = {};
   friend bool operator==(const AreaFigures&, const AreaFigures&) = default;
 };
 

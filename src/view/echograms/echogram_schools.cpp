@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "base/units.h"
+
 namespace sonar {
 namespace {
 
@@ -96,6 +98,36 @@ std::vector<EchogramSchool> echogram_schools(const ObservationProduct& product, 
     }
     if (!one.stretches.empty()) out.push_back(std::move(one));
   }
+  return out;
+}
+
+std::vector<EchogramStretch> echogram_shadow(std::span<const std::vector<double>> shadow,
+                                             std::span<const EchogramRow> rows, const EchogramRange& range, int samples,
+                                             double least_db, std::size_t ping) {
+  const auto beam_of = [&](const EchogramRow& row) -> const std::vector<double>& {
+    return shadow[static_cast<std::size_t>(row.row)];
+  };
+  if (std::ranges::all_of(rows, [&](const EchogramRow& row) { return beam_of(row).empty(); })) return {};
+  struct Left {
+    double sum = 0.0;
+    int samples = 0;
+  };
+  std::vector<Left> left(static_cast<std::size_t>(range.bins));
+  for (const EchogramRow& row : rows) {
+    const std::vector<double>& beam = beam_of(row);
+    for (int s = 0; s < samples; ++s) {
+      const int bin = bin_of(range, row.height_m(s));
+      if (bin < 0) continue;
+      Left& of = left[static_cast<std::size_t>(bin)];
+      of.sum += beam.empty() ? 1.0 : 1.0 / beam[static_cast<std::size_t>(s)];
+      ++of.samples;
+    }
+  }
+  const double most = linear_from_db(-least_db);
+  std::vector<bool> bins;
+  for (const Left& of : left) bins.push_back(of.samples > 0 && of.sum <= most * of.samples);
+  std::vector<EchogramStretch> out;
+  add_stretches(bins, range, ping, out);
   return out;
 }
 

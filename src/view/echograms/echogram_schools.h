@@ -41,6 +41,16 @@ using RowsOfPing = std::function<std::vector<EchogramRow>(std::int64_t ping_inde
                                                            const EchogramRange& range, std::int64_t first,
                                                            std::int64_t pings);
 
+/// Where an echogram of a ping lies in the shadow of schools: cells whose beams, heard alike, would lose least_db or more of
+/// their mean both ways. Of one beam that is from a sample to the record's end.
+/// shadow  [row][sample] what was taken, as a factor >= 1 of sv; empty = nothing of that beam
+/// rows    that the echogram shows of the ping
+/// ping    of the echogram
+[[nodiscard]] std::vector<EchogramStretch> echogram_shadow(std::span<const std::vector<double>> shadow,
+                                                           std::span<const EchogramRow> rows,
+                                                           const EchogramRange& range, int samples, double least_db,
+                                                           std::size_t ping);
+
 /// Refused echoes of the pings and beams that an echogram shows, each at its height there and at its ping of the echogram.
 /// echoes  of the observation
 [[nodiscard]] std::vector<RefusedEcho> echogram_refused(std::span<const RefusedEcho> echoes, const BeamGrid& grid,

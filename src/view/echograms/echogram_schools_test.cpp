@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <random>
 #include <span>
 #include <variant>
@@ -129,6 +131,45 @@ TEST(EchogramSchools, RefusedEchoesAreMarkedInTheirBeam) {
       echogram_refused(example.product.rejected, example.product.grid->grid, example.rows(other), 0, 20).empty());
 }
 
+// Beam 2 of fan 1 has lost half from sample 30 on (3.01 dB); of its fan's four beams' mean that is an eighth (0.58 dB), and
+// with three quarters of beam 0 from sample 40 on five sixteenths (1.63 dB). Sample 30 lies at 59 m, its cell begins at 58 m.
+TEST(EchogramShadow, LiesWhereTheMeanOfTheBeamsLosesSoMuch) {
+  const Example example;
+  ASSERT_EQ(example.sector.beams(), 4);
+  const int samples = example.sector.range().count;
+  std::vector<std::vector<double>> shadow(static_cast<std::size_t>(example.sector.fans() * 4));
+  const auto lose = [&](std::size_t row, int from, double factor) {
+    shadow[row].assign(static_cast<std::size_t>(samples), 1.0);
+    std::fill(shadow[row].begin() + from, shadow[row].end(), factor);
+  };
+  lose(6, 30, 2.0);
+  const EchogramOf beam{1, 2, EchogramHeight::range};
+  const EchogramOf fan{1, std::nullopt, EchogramHeight::range};
+  const EchogramRange range = echogram_range(example.sector, {}, beam);
+  const auto from = [&](const EchogramOf& of, double least_db) {
+    const auto found = echogram_shadow(shadow, example.rows(of)(5), range, samples, least_db, 5);
+    EXPECT_LE(found.size(), 1U);
+    if (found.empty()) return -1.0;
+    EXPECT_EQ(found[0].ping, 5U);
+    EXPECT_DOUBLE_EQ(found[0].to_m, heights_of(range).last_m);
+    return found[0].from_m;
+  };
+  EXPECT_DOUBLE_EQ(from(beam, 3.0), 58.0);
+  EXPECT_EQ(from(beam, 3.1), -1.0);
+  EXPECT_EQ(from({1, 1, EchogramHeight::range}, 0.1), -1.0) << "another beam is not in its shadow";
+  EXPECT_DOUBLE_EQ(from(fan, 0.5), 58.0);
+  EXPECT_EQ(from(fan, 1.0), -1.0);
+  lose(4, 40, 4.0);
+  EXPECT_DOUBLE_EQ(from(fan, 1.0), 78.0);
+  // Below the sonar: the beam goes down by sin 15 deg.
+  const EchogramOf depth{1, 2, EchogramHeight::depth};
+  const std::vector<Placement> ping{example.product.pings[5].placement()};
+  const EchogramRange depths = echogram_range(example.sector, ping, depth);
+  const auto deep = echogram_shadow(shadow, example.rows(depth)(5), depths, samples, 3.0, 5);
+  ASSERT_EQ(deep.size(), 1U);
+  EXPECT_NEAR(deep[0].from_m, 7.0 + 59.0 * std::sin(rad_from_deg(15.0)), depths.bin_m);
+}
+
 /// The picture of one beam with its school.
 struct Picture {
   Example example;
@@ -174,6 +215,45 @@ TEST(Echogram, OutlinesItsSchoolsWithTheirNumbers) {
   // Ping 5 begins at 25 s, ping 16 at 80 s; samples 24 .. 26 lie at 47 .. 51 m.
   EXPECT_TRUE(in(25.2, 46.2) && in(79.8, 51.8));
   EXPECT_FALSE(in(24.8, 49.0) || in(80.2, 49.0) || in(50.0, 45.8) || in(50.0, 52.2));
+}
+
+// Stripes of the slices' hatch from 60 m on in pings 5 to 7 (25 to 40 s), nowhere else, and a word for them.
+TEST(Echogram, ShadowIsHatchedWhereItLies) {
+  Picture picture;
+  constexpr PixelSize kWide{900, 500};
+  const Theme theme = light_theme(kWide);
+  const auto images = [](const FrameDescription& frame) {
+    std::vector<ImageItem> out;
+    for (const auto& item : frame.items) {
+      if (const auto* image = std::get_if<ImageItem>(&item)) out.push_back(*image);
+    }
+    return out;
+  };
+  const auto plain = timeline(std::span(&picture.observation, 1), picture.style, kWide, theme);
+  ASSERT_TRUE(plain);
+  EXPECT_FALSE(says(*plain, "in the shadow of schools"));
+  const std::vector<EchogramStretch> shadow{{5, 60.0, 118.0}, {6, 60.0, 118.0}, {7, 60.0, 118.0}};
+  picture.observation.shadow = shadow;
+  const auto frame = timeline(std::span(&picture.observation, 1), picture.style, kWide, theme);
+  const auto plot = timeline_plot(std::span(&picture.observation, 1), picture.style, kWide, theme);
+  ASSERT_TRUE(frame && plot);
+  EXPECT_TRUE(says(*frame, "in the shadow of schools"));
+  const std::vector<ImageItem> drawn = images(*frame);
+  ASSERT_GT(drawn.size(), images(*plain).size());
+  const ImageItem& hatch = drawn[0];
+  const PixelPoint top = plot->plot.at(25.0, 60.0);
+  const PixelPoint bottom = plot->plot.at(40.0, 118.0);
+  int striped = 0;
+  for (int y = 0; y < hatch.image->size.height; ++y) {
+    for (int x = 0; x < hatch.image->size.width; ++x) {
+      if (hatch.image->at(x, y).a == 0) continue;
+      ++striped;
+      EXPECT_EQ(hatch.image->at(x, y), theme.hatch);
+      const PixelPoint middle{hatch.place.x + x + 0.5, hatch.place.y + y + 0.5};
+      ASSERT_TRUE(middle.x > top.x && middle.x < bottom.x && middle.y > top.y && middle.y < bottom.y);
+    }
+  }
+  EXPECT_NEAR(striped * 6.0, (bottom.x - top.x) * (bottom.y - top.y), 0.1 * striped * 6.0) << "one line in six";
 }
 
 TEST(Echogram, APartOfBothAxesCanBeShown) {

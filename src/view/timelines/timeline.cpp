@@ -343,6 +343,7 @@ Result<FrameDescription> timeline(std::span<const TimelineObservation> observati
   const SvColours colours = sv_colours(style.scale);
   frame.items.emplace_back(ClipItem{plot.place});
   for (const Strip& s : laid->strips) add_echogram(frame, s, plot, style, colours, theme);
+  for (const Strip& s : laid->strips) add_shadow(frame, s, plot, theme);
   for (const Strip& s : laid->strips) add_silent(frame, s, plot, theme);
   for (const Strip& s : laid->strips) add_bad(frame, s, plot, theme);
   std::vector<TrackNumber> numbers;

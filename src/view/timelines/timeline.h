@@ -96,6 +96,7 @@ struct TimelineObservation {
   std::span<const RefusedEcho> refused = {};     ///< marked, each echo where it was loudest
   std::int64_t chosen_echo = 0;                  ///< echo_id that is highlighted; 0 = none
   std::span<const EchogramSchool> schools = {};  ///< where the style outlines them
+  std::span<const EchogramStretch> shadow = {};  ///< of schools, hatched; by ping
   std::string label = {};                        ///< named above it so; empty = the observation's name
   std::span<const TimelinePoint> line = {};      ///< in time order; drawn from ping to ping
   std::string line_name = {};                    ///< of its file, for the key

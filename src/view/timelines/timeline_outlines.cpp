@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "view/school_look.h"
+#include "view/slices/slice_key.h"
 #include "view/timelines/timeline_strip.h"
 
 namespace sonar {
@@ -53,7 +56,40 @@ std::vector<OutlinedColumn> columns_of(const EchogramSchool& school, const Strip
   return out;
 }
 
+/// The pixels whose middle lies between two places, of so many.
+struct PixelSpan {
+  int first = 0;
+  int end = 0;
+};
+PixelSpan pixels_between(double from_px, double to_px, int count) {
+  const auto bound = [count](double px) { return static_cast<int>(std::clamp(std::ceil(px - 0.5), 0.0, 1.0 * count)); };
+  return {bound(from_px), bound(to_px)};
+}
+
 }  // namespace
+
+void add_shadow(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const Theme& theme) {
+  if (strip.observation->shadow.empty()) return;
+  const std::vector<double>& x = strip.along.x;
+  const PixelRect& place = plot.place;
+  const PixelSize size{std::max(1, static_cast<int>(std::ceil(place.width))),
+                       std::max(1, static_cast<int>(std::ceil(place.height)))};
+  auto image = std::make_shared<Image>(size, Rgba8{0, 0, 0, 0});
+  for (const EchogramStretch& s : strip.observation->shadow) {
+    if (s.ping >= x.size()) break;
+    const PixelSpan columns =
+        pixels_between(plot.at(x[s.ping], 0.0).x - place.x,
+                       plot.at(filled_until(x, strip.along.gap, s.ping), 0.0).x - place.x, size.width);
+    const PixelSpan lines =
+        pixels_between(plot.at(0.0, s.from_m).y - place.y, plot.at(0.0, s.to_m).y - place.y, size.height);
+    for (int j = lines.first; j < lines.end; ++j) {
+      for (int i = columns.first; i < columns.end; ++i) {
+        if (on_hatch(i, size.height - 1 - j, theme)) image->at(i, j) = theme.hatch;
+      }
+    }
+  }
+  frame.items.emplace_back(ImageItem{{place.x, place.y, 1.0 * size.width, 1.0 * size.height}, std::move(image), false});
+}
 
 void add_outlines(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const TimelineStyle& style,
                   const Theme& theme, std::vector<TrackNumber>& numbers) {

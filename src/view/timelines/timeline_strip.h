@@ -70,6 +70,8 @@ void add_tracks(FrameDescription& frame, const Strip& strip, const PlotFrame& pl
 /// numbers  as add_tracks()
 void add_outlines(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const TimelineStyle& style,
                   const Theme& theme, std::vector<TrackNumber>& numbers);
+/// Stripes where schools cast shadow on an echogram, as slices have them.
+void add_shadow(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const Theme& theme);
 /// Numbers at their tracks' first pings, else at other places along them, none on another; those that find no room are
 /// left out.
 void add_track_numbers(FrameDescription& frame, std::span<const TrackNumber> numbers, const PlotFrame& plot,

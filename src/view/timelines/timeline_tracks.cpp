@@ -12,6 +12,7 @@
 #include "view/refused_marks.h"
 #include "view/school_look.h"
 #include "view/shapes.h"
+#include "view/slices/slice_key.h"
 #include "view/timelines/timeline_strip.h"
 
 namespace sonar {
@@ -133,6 +134,9 @@ std::vector<KeyEntry> timeline_key(std::span<const Strip> strips, const Timeline
   }
   if (std::any_of(strips.begin(), strips.end(), [](const Strip& s) { return !s.observation->refused.empty(); })) {
     out.push_back(refused_key(theme));
+  }
+  if (std::any_of(strips.begin(), strips.end(), [](const Strip& s) { return !s.observation->shadow.empty(); })) {
+    out.push_back(shadow_key(theme));
   }
   if (std::any_of(strips.begin(), strips.end(), any_silent)) {
     out.push_back(hatched("ping without data", theme.no_data, 1.0, theme));
