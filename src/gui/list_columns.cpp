@@ -38,7 +38,9 @@ void ListColumns::begin() {
 }
 
 void ListColumns::fit() {
-  if (std::exchange(fitted_, !rows_.for_now())) return;
+  const bool same = by_hand_ || titles() == fitted_to_;
+  if (std::exchange(fitted_, !rows_.for_now()) && same) return;
+  fitted_to_ = titles();
   ours_ = true;
   list_.header()->setResizeContentsPrecision(kRowsThatFit);
   for (int c = 0; c < list_.model()->columnCount(); ++c) {
@@ -67,6 +69,14 @@ void ListColumns::end_sentences() {
 bool ListColumns::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::Resize) end_sentences();
   return QObject::eventFilter(watched, event);
+}
+
+QStringList ListColumns::titles() const {
+  QStringList all;
+  for (int c = 0; c < list_.model()->columnCount(); ++c) {
+    all.push_back(list_.model()->headerData(c, Qt::Horizontal).toString());
+  }
+  return all;
 }
 
 /// Qt leaves room for the mark of the order beside every title; here only the title that has it does.

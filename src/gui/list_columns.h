@@ -16,7 +16,8 @@ class ListColumns : public QObject {
   ListColumns(const Rows& rows, QTreeView& list) : rows_(rows), list_(list) {}
   /// As wide as the titles, until there are rows; the list has its model.
   void begin();
-  /// By the first rows that there are; once, but anew after those that were there for now.
+  /// By the first rows that there are; once, but anew after those that were there for now, and where titles have changed (another
+  /// unit) until a human has given a column another width.
   void fit();
 
  protected:
@@ -24,11 +25,13 @@ class ListColumns : public QObject {
 
  private:
   [[nodiscard]] int title_width(int column) const;
+  [[nodiscard]] QStringList titles() const;
   void end_sentences();
 
   const Rows& rows_;
   QTreeView& list_;
-  int sentence_px_ = 0;  ///< that the whole sentence would need
+  QStringList fitted_to_;  ///< titles
+  int sentence_px_ = 0;    ///< that the whole sentence would need
   bool fitted_ = false;
   bool by_hand_ = false;
   bool ours_ = false;  ///< nobody dragged

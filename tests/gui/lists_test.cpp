@@ -10,6 +10,7 @@
 #include <QTreeView>
 #include <algorithm>
 
+#include "gui/rows_view.h"
 #include "session/review.h"
 #include "window_at_work.h"
 
@@ -175,6 +176,48 @@ TEST_F(Lists, TheTreeShowsTimePingsAndSchoolsWithoutBeingMoved) {
     EXPECT_LE(list("survey_tree").sizeHintForIndex(time).width(), header.sectionSize(time.column()));
     EXPECT_GT(time.data(Qt::ToolTipRole).toString().size(), time.data().toString().size()) << "year and seconds";
   }
+}
+
+/// A list of one figure, which is told in one unit or in another.
+class Told : public Rows {
+ public:
+  Told() { tell("m", "1.5", "1.5 \u00B1 0.1"); }
+  [[nodiscard]] const std::vector<ListColumn>& columns() const override { return titles_; }
+  [[nodiscard]] std::size_t rows() const override { return 3; }
+  [[nodiscard]] Cell cell(std::size_t /*row*/, std::size_t column) const override {
+    return column == 0 ? cell_ : Cell{"a word", std::string("a word")};
+  }
+  void tell(const std::string& unit, const std::string& brief, const std::string& text) {
+    titles_[0].unit = unit;
+    cell_ = {text, 1.5, brief};
+    changed().tell();
+  }
+
+ private:
+  std::vector<ListColumn> titles_{{"D", "m", "", true}, {"Word", "", ""}, {"Last", "", ""}};
+  Cell cell_;
+};
+
+int cells_px(const QTreeView& list) { return static_cast<const QAbstractItemView&>(list).sizeHintForColumn(0); }
+
+TEST(ListColumns, AreFittedAnewInAnotherUnitButNotWhereAHandGaveAWidth) {
+  Told rows;
+  RowsView view(rows, false);
+  view.resize(400, 200);
+  view.show();
+  auto& list = *view.findChild<QTreeView*>("rows");
+  const int before = list.columnWidth(0);
+  EXPECT_GE(before, cells_px(list));
+  rows.tell("m", "1234567890123.5", "");
+  EXPECT_EQ(list.columnWidth(0), before) << "a list does not jump while its figures change";
+  rows.tell("a unit of a long name", "1234567890123.5", "");
+  const int title = list.header()->fontMetrics().horizontalAdvance("D [a unit of a long name]");
+  EXPECT_GT(title, before) << "else nothing is tested";
+  EXPECT_GE(list.columnWidth(0), title);
+  EXPECT_GE(list.columnWidth(0), cells_px(list));
+  list.header()->resizeSection(0, 45);
+  rows.tell("m", "1.5", "");
+  EXPECT_EQ(list.columnWidth(0), 45) << "a hand's own";
 }
 
 TEST_F(Lists, AReviewIsThreeKeysASchool) {
