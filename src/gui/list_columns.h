@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <QList>
 #include <QObject>
+#include <QStringList>
 #include <QTreeView>
 
 #include "session/rows.h"
 
 namespace sonar {
 
-/// How wide the columns of a list are: as wide as what stands in them, but a sentence ends where the list ends, with dots
-/// where it is cut. It goes on doing so while the list changes its width, until a human has given a column another.
+/// How wide the columns of a list are: as wide as what stands in them, brief where there is no room for the whole text, but a
+/// sentence ends where the list ends, with dots where it is cut. It goes on doing so while the list changes its width, until a
+/// human has given a column another.
 class ListColumns : public QObject {
  public:
   /// Both outlive this.
@@ -26,12 +29,17 @@ class ListColumns : public QObject {
  private:
   [[nodiscard]] int title_width(int column) const;
   [[nodiscard]] QStringList titles() const;
-  void end_sentences();
+  [[nodiscard]] bool telling(int column) const;
+  /// Room that is left goes to columns whose cells have a brief text, for their whole one; sentences end where the list ends.
+  void share_room();
+  /// That the whole texts of a column's first rows need; 0 = it has no brief ones.
+  [[nodiscard]] int whole_width(int column) const;
 
   const Rows& rows_;
   QTreeView& list_;
   QStringList fitted_to_;  ///< titles
-  int sentence_px_ = 0;    ///< that the whole sentence would need
+  QList<int> fit_px_;      ///< [column] of the title and the first rows, brief
+  QList<int> whole_px_;    ///< [column] of whole texts; 0 = none is brief
   bool fitted_ = false;
   bool by_hand_ = false;
   bool ours_ = false;  ///< nobody dragged

@@ -6,6 +6,7 @@
 
 #include <QClipboard>
 #include <QHeaderView>
+#include <QImage>
 #include <QLineEdit>
 #include <QTreeView>
 #include <algorithm>
@@ -218,6 +219,29 @@ TEST(ListColumns, AreFittedAnewInAnotherUnitButNotWhereAHandGaveAWidth) {
   list.header()->resizeSection(0, 45);
   rows.tell("m", "1.5", "");
   EXPECT_EQ(list.columnWidth(0), 45) << "a hand's own";
+}
+
+TEST(ListColumns, TellStandardErrorsWhereThereIsRoom) {
+  Told rows;
+  RowsView view(rows, false);
+  view.resize(600, 200);
+  view.show();
+  auto& list = *view.findChild<QTreeView*>("rows");
+  const auto looks = [&] { return list.viewport()->grab().toImage(); };
+  const QFontMetrics& font = list.fontMetrics();
+  EXPECT_GE(list.columnWidth(0), font.horizontalAdvance("1.5 \u00B1 0.1"));
+  const QImage told = looks();
+  rows.tell("m", "1.5", "1.5 \u00B1 0.7");
+  EXPECT_NE(looks(), told) << "the error is on the screen, not under the pointer alone";
+  view.resize(120, 200);
+  EXPECT_LT(list.columnWidth(0), font.horizontalAdvance("1.5 \u00B1 0.7"));
+  const QImage brief = looks();
+  rows.tell("m", "1.5", "1.5 \u00B1 0.1");
+  EXPECT_EQ(looks(), brief) << "nothing is cut where it has no room";
+  list.header()->resizeSection(0, 100);
+  const QImage wide = looks();
+  rows.tell("m", "1.5", "1.5 \u00B1 0.7");
+  EXPECT_NE(looks(), wide) << "a hand gave it room";
 }
 
 TEST_F(Lists, AReviewIsThreeKeysASchool) {
