@@ -349,12 +349,11 @@ Result<void> write_depth_raster(const std::filesystem::path& target, const Depth
   raster.columns = grid.columns;
   raster.rows = grid.rows;
   raster.description = description;
-  RasterBand elevation{"elevation", "m", {}};
-  elevation.values.reserve(grid.depth_m.size());
-  for (int row = grid.rows - 1; row >= 0; --row) {
-    for (int column = 0; column < grid.columns; ++column) elevation.values.push_back(0.0F - grid.at(row, column));
-  }
-  raster.bands.push_back(std::move(elevation));
+  raster.bands = {{"elevation", "m", [&grid](int row, std::span<float> line) {
+                     for (int column = 0; column < grid.columns; ++column) {
+                       line[static_cast<std::size_t>(column)] = 0.0F - grid.at(grid.rows - 1 - row, column);
+                     }
+                   }}};
   return write_geotiff(target, raster);
 }
 

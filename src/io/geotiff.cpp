@@ -4,12 +4,13 @@
 #include <cpl_string.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 
-#include "base/check.h"
 #include "base/library_gate.h"
 #include "io/atomic_file.h"
 #include "io/gdal_drivers.h"
@@ -20,20 +21,28 @@ namespace {
 
 using Dataset = std::unique_ptr<GDALDataset, decltype([](GDALDataset* d) { GDALClose(d); })>;
 
-/// Row by row.
-bool write_band(GDALRasterBand& band, const RasterBand& from, const GeoTiff& raster) {
-  band.SetNoDataValue(static_cast<double>(kNoDataWritten));
-  band.SetDescription(from.name.c_str());
-  band.SetUnitType(from.unit.c_str());
+/// All bands of a row together: so they lie in the file, and a tile is compressed once. Whole tiles leave memory, where GDAL
+/// would keep a twentieth of the machine's.
+bool write_rows(GDALDataset& out, const GeoTiff& raster) {
+  int tile_columns = 0;
+  int tile_rows = 1;
+  out.GetRasterBand(1)->GetBlockSize(&tile_columns, &tile_rows);
   std::vector<float> line(static_cast<std::size_t>(raster.columns));
   for (int row = 0; row < raster.rows; ++row) {
-    const std::size_t first = static_cast<std::size_t>(row) * line.size();
-    for (std::size_t c = 0; c < line.size(); ++c) {
-      line[c] = std::isnan(from.values[first + c]) ? kNoDataWritten : from.values[first + c];
+    for (std::size_t b = 0; b < raster.bands.size(); ++b) {
+      std::ranges::fill(line, std::numeric_limits<float>::quiet_NaN());
+      raster.bands[b].fill(row, line);
+      std::ranges::replace_if(
+          line, [](float value) { return std::isnan(value); }, kNoDataWritten);
+      GDALRasterBand& band = *out.GetRasterBand(static_cast<int>(b) + 1);
+      if (band.RasterIO(GF_Write, 0, row, raster.columns, 1, line.data(), raster.columns, 1, GDT_Float32, 0, 0,
+                        nullptr) != CE_None) {
+        return false;
+      }
     }
-    if (band.RasterIO(GF_Write, 0, row, raster.columns, 1, line.data(), raster.columns, 1, GDT_Float32, 0, 0,
-                      nullptr) != CE_None) {
-      return false;
+    if ((row + 1) % tile_rows != 0) continue;
+    for (int b = 1; b <= out.GetRasterCount(); ++b) {
+      if (out.GetRasterBand(b)->FlushCache(false) != CE_None) return false;
     }
   }
   return true;
@@ -69,11 +78,13 @@ Result<void> write_geotiff(const std::filesystem::path& target, const GeoTiff& r
       out->SetMetadataItem("TIFFTAG_IMAGEDESCRIPTION", raster.description.c_str());
     }
     for (int b = 0; b < bands; ++b) {
-      const RasterBand& band = raster.bands[static_cast<std::size_t>(b)];
-      SONAR_CHECK(band.values.size() ==
-                  static_cast<std::size_t>(raster.columns) * static_cast<std::size_t>(raster.rows));
-      if (!write_band(*out->GetRasterBand(b + 1), band, raster)) return refused("cannot write the raster");
+      const RasterBand& from = raster.bands[static_cast<std::size_t>(b)];
+      GDALRasterBand& band = *out->GetRasterBand(b + 1);
+      band.SetNoDataValue(static_cast<double>(kNoDataWritten));
+      band.SetDescription(from.name.c_str());
+      band.SetUnitType(from.unit.c_str());
     }
+    if (!write_rows(*out, raster)) return refused("cannot write the raster");
     if (out->FlushCache(true); CPLGetLastErrorType() >= CE_Failure) return refused("cannot write the raster");
   }
   return file->commit();

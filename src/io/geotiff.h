@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,7 +17,8 @@ inline constexpr float kNoDataWritten = -32767.0F;
 struct RasterBand {
   std::string name;
   std::string unit;
-  std::vector<float> values;  ///< [row from the north][column]; NaN = unknown
+  /// A row from the north, which holds NaN = unknown in every column before. Asked row by row: a raster need not be in memory.
+  std::function<void(int row, std::span<float> line)> fill;
 };
 
 /// A raster with its north up, to be written.

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "base/library_gate.h"
@@ -99,21 +100,24 @@ Result<void> SeabedRaster::write(const std::filesystem::path& target, const std:
   raster.columns = static_cast<int>(east - west + 1);
   raster.rows = static_cast<int>(north - south + 1);
   raster.description = description;
-  const std::size_t count = static_cast<std::size_t>(raster.columns) * static_cast<std::size_t>(raster.rows);
-  const auto band = [count](const char* name, const char* unit) {
-    return RasterBand{name, unit, std::vector<float>(count, std::numeric_limits<float>::quiet_NaN())};
+  const auto band = [&](const char* name, const char* unit, float (*value)(const Cell&)) {
+    return RasterBand{
+        name, unit, [this, north, west, value](int row, std::span<float> line) {
+          const std::int64_t of = north - row;
+          for (auto at = cells_.lower_bound({of, west}); at != cells_.end() && at->first.first == of; ++at) {
+            line[static_cast<std::size_t>(at->first.second - west)] = value(at->second);
+          }
+        }};
   };
-  raster.bands = {band("depth", "m"), band("standard_error", "m"), band("count", "1")};
-  for (const auto& [at, cell] : cells_) {
-    const auto i = static_cast<std::size_t>(north - at.first) * static_cast<std::size_t>(raster.columns) +
-                   static_cast<std::size_t>(at.second - west);
-    const auto beams = static_cast<double>(cell.beams);
-    const auto fans = static_cast<double>(std::popcount(cell.fans));
-    raster.bands[0].values[i] = static_cast<float>(cell.weighted_m / cell.weight);
-    // Weighted mean of the beams' variances, by the fans.
-    raster.bands[1].values[i] = static_cast<float>(std::sqrt(beams / cell.weight / fans));
-    raster.bands[2].values[i] = static_cast<float>(beams);
-  }
+  raster.bands = {
+      band("depth", "m", [](const Cell& cell) { return static_cast<float>(cell.weighted_m / cell.weight); }),
+      // Weighted mean of the beams' variances, by the fans.
+      band("standard_error", "m",
+           [](const Cell& cell) {
+             const auto fans = static_cast<double>(std::popcount(cell.fans));
+             return static_cast<float>(std::sqrt(static_cast<double>(cell.beams) / cell.weight / fans));
+           }),
+      band("count", "1", [](const Cell& cell) { return static_cast<float>(cell.beams); })};
   return write_geotiff(target, raster);
 }
 

@@ -4,16 +4,20 @@
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "geo/geodesic.h"
 #include "io/depth_raster.h"
+#include "io/sandbox.h"
 
 namespace sonar {
 namespace {
@@ -82,6 +86,51 @@ TEST_F(SeabedRasterFile, IsReadAsDepthsAcrossTheDateLine) {
   const auto grid = read_depth_raster(folder_ / "geographic.tif", {-45.01, -44.99, 179.97, 180.02});
   ASSERT_TRUE(grid) << to_line(grid.error());
   EXPECT_NEAR(grid->depth_at({-45.0, 179.98}), 80.0, 1e-3);
+}
+
+/// Rows and tiles of a large raster that hardly any beam hits: every beam in its own cell, nothing between.
+TEST_F(SeabedRasterFile, BeamsFarApartLieWhereTheyWere) {
+  SeabedRaster raster({1000.0, true}, {0.0, 0.0});
+  const double step_deg = 1000.0 / 111'320.0;
+  const int size = 700;
+  for (int i = 0; i < size; i += 3) {
+    raster.add({{(i + 0.5) * step_deg, ((7 * i) % size + 0.5) * step_deg}, 50.0 + i, 1.0, 0});
+  }
+  ASSERT_TRUE(raster.write(folder_ / "wide.tif", ""));
+  const Dataset file(GDALDataset::Open((folder_ / "wide.tif").c_str()));
+  ASSERT_TRUE(file);
+  const int columns = file->GetRasterXSize();
+  const int rows = file->GetRasterYSize();
+  EXPECT_EQ(rows, (size - 1) / 3 * 3 + 1);
+  std::vector<float> depth(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  ASSERT_EQ(file->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, columns, rows, depth.data(), columns, rows, GDT_Float32, 0,
+                                             0, nullptr),
+            CE_None);
+  std::ptrdiff_t hit = 0;
+  for (int i = 0; i < size; i += 3) {
+    const auto at = static_cast<std::size_t>(rows - 1 - i) * static_cast<std::size_t>(columns) +
+                    static_cast<std::size_t>((7 * i) % size);
+    EXPECT_EQ(depth[at], static_cast<float>(50.0 + i)) << i;
+    ++hit;
+  }
+  EXPECT_EQ(std::ssize(depth) - std::count(depth.begin(), depth.end(), -32767.0F), hit);
+}
+
+/// Three bands of 6 million cells are 72 MB; a row of tiles of them is 12 MB.
+TEST_F(SeabedRasterFile, ALargeOneIsNeverInMemory) {
+  if (kSanitized) GTEST_SKIP() << "its memory is the sanitizer's";
+  const auto most_kb = [] {
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    return used.ru_maxrss;
+  };
+  const double step_deg = 1000.0 / 111'320.0;
+  SeabedRaster raster({1000.0, true}, {0.0, 0.0});
+  raster.add({{0.5 * step_deg, 0.5 * step_deg}, 80.0, 1.0, 0});
+  raster.add({{1499.5 * step_deg, 3999.5 * step_deg}, 80.0, 1.0, 0});
+  const long before_kb = most_kb();
+  ASSERT_TRUE(raster.write(folder_ / "large.tif", ""));
+  EXPECT_LT(most_kb() - before_kb, 40'000);
 }
 
 TEST_F(SeabedRasterFile, TooManyCellsAreRefused) {

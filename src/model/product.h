@@ -74,6 +74,17 @@ struct ObservationProduct {
   TimeNs cut_after = 0;
 };
 
+/// A copy without voxels: its masks and background levels are empty. They are most of it, and never copied.
+[[nodiscard]] inline ObservationProduct without_voxels(const ObservationProduct& product) {
+  // One more member does not compile until it is named here.
+  const auto& [observation, program_version, title, source, history, recipe_json, recipe_hash, stage_versions,
+               input_hash, input_files, pings, background_db, grid, schools, school_pings, masks, rejected, diagnostics,
+               next_school, cut_after] = product;
+  return {observation, program_version, title,       source,   history, recipe_json, recipe_hash,  stage_versions,
+          input_hash,  input_files,     pings,       {},       grid,    schools,     school_pings, {},
+          rejected,    diagnostics,     next_school, cut_after};
+}
+
 /// The number that the next new school of the product gets.
 [[nodiscard]] inline std::int64_t next_school_id(const ObservationProduct& product) {
   std::int64_t next = product.next_school_id > 1 ? product.next_school_id : 1;

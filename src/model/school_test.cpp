@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "model/product.h"
+
 namespace sonar {
 namespace {
 
@@ -79,6 +81,41 @@ TEST(EdgeFlags, PublishedBits) {
             kEdgeFore | kEdgeAft | kEdgeTopFan | kEdgeBottomFan | kEdgeNear | kEdgeFar | kEdgeSeabed | kEdgeSurface);
   EXPECT_EQ(kTouchesEdge & kEdgeFlagged, 0);
   EXPECT_EQ(kCutsCentre, 1 | 2 | 16 | 32);
+}
+
+TEST(ObservationProduct, WithoutVoxelsIsAllTheRest) {
+  ObservationProduct whole;
+  int count = 0;
+  for (std::string* text : {&whole.observation, &whole.program_version, &whole.title, &whole.source, &whole.history,
+                            &whole.recipe_json, &whole.recipe_hash, &whole.stage_versions, &whole.input_hash}) {
+    *text = std::to_string(++count);
+  }
+  whole.input_files.resize(1);
+  whole.pings.resize(2);
+  whole.background_db.resize(2);
+  whole.grid.emplace();
+  whole.schools.resize(3);
+  whole.school_pings.resize(4);
+  whole.masks.resize(4);
+  whole.rejected.resize(5);
+  whole.diagnostics.resize(6);
+  whole.next_school_id = 7;
+  whole.cut_after = 8;
+  const ObservationProduct rows = without_voxels(whole);
+  EXPECT_TRUE(rows.masks.empty());
+  EXPECT_TRUE(rows.background_db.empty());
+  EXPECT_EQ(rows.observation + rows.program_version + rows.title + rows.source + rows.history + rows.recipe_json +
+                rows.recipe_hash + rows.stage_versions + rows.input_hash,
+            "123456789");
+  EXPECT_EQ(rows.input_files.size(), 1U);
+  EXPECT_EQ(rows.pings.size(), 2U);
+  EXPECT_TRUE(rows.grid);
+  EXPECT_EQ(rows.schools.size(), 3U);
+  EXPECT_EQ(rows.school_pings.size(), 4U);
+  EXPECT_EQ(rows.rejected.size(), 5U);
+  EXPECT_EQ(rows.diagnostics.size(), 6U);
+  EXPECT_EQ(rows.next_school_id, 7);
+  EXPECT_EQ(rows.cut_after, 8);
 }
 
 }  // namespace

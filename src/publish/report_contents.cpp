@@ -51,6 +51,7 @@ class Contents {
         facts_(report_facts(source.observations(), source.recipe())) {
     options_.limits_given = false;
     options_.dark = false;  // paper is white
+    options_.units = {};    // as its tables, which are those of the files: column names carry their units
     for (DrawnObservation& one : source_.observations()) all_.push_back(&one);
   }
 

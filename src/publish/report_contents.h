@@ -48,7 +48,7 @@ class ReportWriter {
 /// schools with their uncertainties, the tables of echo integration, the recipe, the raw files, what was noted, and what the
 /// columns mean. Without raw files it lacks the pictures of samples. Times are the data's: the same survey gives the same.
 /// paths    those that the source was opened with; a work folder's effort.csv, nasc.csv and strata.csv are shown
-/// options  as report_page(), but dark
+/// options  as report_page(), but dark and units: pictures are in metres and m/s as the tables are
 /// errors   cancelled; format: a table that is none; as validate_options()
 [[nodiscard]] Result<void> write_report(ReportWriter& writer, PictureSource& source,
                                         std::span<const std::filesystem::path> paths, const PictureOptions& options,

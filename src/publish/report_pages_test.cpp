@@ -218,6 +218,11 @@ TEST(ReportPages, EveryWriterHasEveryHeadingOfTheContents) {
     EXPECT_THAT(all, Contains(text));
   }
   EXPECT_THAT(pages->front().origin.program, testing::StartsWith("Sonar Explorer "));
+  // Its tables are in metres, whatever a window reads.
+  options.units = {LengthUnit::feet, SpeedUnit::knots};
+  const auto in_feet = report_html(*source, {}, options, work);
+  ASSERT_TRUE(in_feet);
+  EXPECT_EQ(*in_feet, *html) << "one unit in one report";
 }
 
 }  // namespace

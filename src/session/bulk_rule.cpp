@@ -100,9 +100,20 @@ bool holds(double value, const BulkRule::Condition& condition) {
   return false;
 }
 
+/// Limits of lengths are metres from here on, and the text says what they were.
+void take_lengths(BulkRule& rule, const Unit& length) {
+  bool any = false;
+  for (BulkRule::Condition& condition : rule.conditions) {
+    if (condition.quantity != Quantity::depth_m && condition.quantity != Quantity::length_m) continue;
+    condition.limit *= length.si;
+    any = true;
+  }
+  if (any && length.si != 1.0) rule.text += fmt::format(" (lengths in {})", length.name);
+}
+
 }  // namespace
 
-Result<BulkRule> bulk_rule(std::string_view text) {
+Result<BulkRule> bulk_rule(std::string_view text, const Unit& length) {
   std::string small(text);
   std::transform(small.begin(), small.end(), small.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -130,6 +141,7 @@ Result<BulkRule> bulk_rule(std::string_view text) {
     rule.conditions.push_back(*condition);
     if (more) rest.remove_prefix(comma + 1);
   }
+  take_lengths(rule, length);
   return rule;
 }
 

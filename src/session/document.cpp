@@ -177,6 +177,7 @@ void Document::read(Opening what) {
       place->notices.push_back(fmt::format("from now on this survey is opened under the recipe of {}",
                                            named->work_folders.front().string()));
     }
+    if (place) place->notices.insert(place->notices.end(), survey->notices.begin(), survey->notices.end());
     if (!files->raw_gone.empty() && place) place->notices.push_back(files->raw_gone + " ([file.find_raw])");
     const auto found = files->raw_gone.empty() ? found_in(named->work_folders, *files, recipe, options_.program_version)
                                                : all_with_grid(*files);
@@ -237,7 +238,7 @@ Result<ResultsAlone> Document::survey_of(const NamedToOpen& named, const Recipe&
   if (!named.raw_gone.empty()) return open_results(named.work_folders, named.raw_gone, work);
   auto survey = open_survey(named.raw, recipe.survey, recipe.navigation, options_.cache, work);
   if (!survey) return pass_on(survey);
-  return ResultsAlone{std::move(*survey), {}};
+  return ResultsAlone{std::move(*survey), {}, {}};
 }
 
 void Document::end_with(const Error& error, const CancelToken& token, const OpeningPtr& opening) {

@@ -95,6 +95,8 @@ void describe(Visitor& v, Preferences& p) {
   v.group("views", p.views, {});
   v.group("picture_file", p.picture_file, {});
   v.group("reduce", p.reduce, {});
+  v.group("integrate", p.integrate, {});
+  v.group("fish", p.fish, {});
   v.group("figure", p.figure, {});
   v.field("curves_linked", p.curves_linked, {});
   v.field("operator", p.operator_name, {});
@@ -278,6 +280,8 @@ void Preferences::apply(Workspace& workspace) const {
   workspace.views.assign(views);
   workspace.picture_file.assign(picture_file);
   workspace.reduce.assign(reduce);
+  workspace.integrate.assign(integrate);
+  workspace.fish.assign(fish);
   workspace.window.assign(window);
   workspace.figure.assign(figure);
   if (window.theme != ThemeName::system) workspace.dark.set(dark);
@@ -297,6 +301,9 @@ void Preferences::take(const Workspace& workspace) {
   views = workspace.views.values();
   picture_file = workspace.picture_file.values();
   reduce = workspace.reduce.values();
+  integrate = workspace.integrate.values();
+  fish = workspace.fish.values();
+  if (fish.lengths == LengthsFrom::table) fish.lengths = FishParams{}.lengths;
   dark = workspace.dark();
   window = workspace.window.values();
   figure = workspace.figure.values();

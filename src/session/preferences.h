@@ -52,6 +52,8 @@ struct Preferences {
   ViewSwitches views;
   PictureFileParams picture_file;
   ReduceParams reduce;
+  IntegrateParams integrate;
+  FishParams fish;                               ///< tables that were opened are not kept
   std::optional<TransferFunction> view_curve;    ///< that a human drew; empty = the scale's
   std::optional<TransferFunction> growth_curve;  ///< empty = the default
   bool curves_linked = false;

@@ -49,6 +49,10 @@ TEST(Preferences, GoThroughAFileAndAWorkspaceUnchanged) {
   out.display.take_out.interference = false;
   out.picture_file.paper.width_px = 777;
   out.reduce.margin_beams = 3;
+  out.integrate.edsu_nmi = 0.1;
+  out.fish.relation = "cod";
+  out.fish.weight_a_g = 0.006;
+  out.fish.lengths = LengthsFrom::table;
   out.view_curve = *curve_of(SvScale{}, {{-65.0, 0.0}, {-40.0, 0.5}});
   out.growth_curve = *growth_curve_of({{-70.0, 0.0}, {-35.0, 1.0}});
   out.window.theme = ThemeName::dark;
@@ -101,6 +105,10 @@ TEST(Preferences, GoThroughAFileAndAWorkspaceUnchanged) {
   EXPECT_FALSE(taken.display.take_out.interference);
   EXPECT_EQ(taken.picture_file.paper.width_px, 777);
   EXPECT_EQ(taken.reduce.margin_beams, 3);
+  EXPECT_EQ(taken.integrate.edsu_nmi, 0.1);
+  EXPECT_EQ(taken.fish.relation, "cod");
+  EXPECT_EQ(taken.fish.weight_a_g, 0.006);
+  EXPECT_EQ(taken.fish.lengths, LengthsFrom::mean_and_sd) << "the table is not open any more";
   EXPECT_EQ(taken.view_curve, out.view_curve);
   EXPECT_EQ(taken.growth_curve, out.growth_curve);
   EXPECT_FALSE(taken.views.volume);

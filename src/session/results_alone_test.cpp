@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "pipeline/stages/detected_cache.h"
+#include "pipeline/tasks/merge.h"
 #include "pipeline/tasks/work_folders.h"
 #include "session/exports.h"
 #include "session/live_watch.h"
@@ -293,6 +294,32 @@ TEST_F(ResultsWithoutRaw, WithoutAPlanAreOpenedToo) {
   ASSERT_NE(document().survey(), nullptr);
   EXPECT_EQ(document().state(0).schools.size(), 2U);
   EXPECT_THAT(document().nothing_shown(), HasSubstr("plan.json"));
+}
+
+TEST_F(ResultsWithoutRaw, ADamagedProductIsToldAndTheRestIsOpened) {
+  const fs::path damaged = product_path(out_, plan_.tasks[0].observation);
+  const fs::path copy = TestSurvey::easy().fresh() / "copy";
+  fs::copy(out_, copy, fs::copy_options::recursive);
+  fs::resize_file(damaged, fs::file_size(damaged) / 2);
+  Work work;
+  const auto merged = merge_folder(out_, {}, work);
+  ASSERT_TRUE(merged) << to_line(merged.error());
+  ASSERT_EQ(merged->failures.size(), 1U);
+  const std::string line = merged->failures.front().text;
+  open({out_});
+  ASSERT_NE(document().survey(), nullptr);
+  ASSERT_EQ(document().survey()->observations.size(), 1U);
+  EXPECT_EQ(document().survey()->observations[0].name, plan_.tasks[1].observation);
+  EXPECT_FALSE(document().state(0).schools.empty());
+  EXPECT_EQ(std::ranges::count(document().notices(), line), 1) << "as sonarx merge says it";
+  const std::vector<fs::path> folders{out_, copy};
+  const auto whole = open_results(folders, "gone", work);
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(whole->products.size(), 2U) << "another folder has it";
+  fs::resize_file(product_path(out_, plan_.tasks[1].observation), 100);
+  open({out_});
+  EXPECT_EQ(document().survey(), nullptr);
+  EXPECT_EQ(std::ranges::count(document().notices(), line), 1);
 }
 
 TEST_F(ResultsWithoutRaw, AndWithoutProductsAreRefused) {

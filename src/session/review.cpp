@@ -142,7 +142,7 @@ void Review::set_species(int digit) {
 }
 
 Result<void> Review::decide_all(std::string_view text) {
-  const auto rule = bulk_rule(text);
+  const auto rule = bulk_rule(text, workspace().units().length());
   if (!rule) return pass_on(rule);
   DecideCommand command;
   command.rule = rule->text;

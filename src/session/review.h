@@ -14,6 +14,7 @@
 #include "session/listening.h"
 #include "session/lists/school_table.h"
 #include "session/preferences.h"
+#include "view/units.h"
 
 namespace sonar {
 
@@ -24,17 +25,18 @@ struct BulkRule {
   struct Condition {
     Quantity quantity = Quantity::pings;
     Sign sign = Sign::at_least;
-    double limit = 0.0;
+    double limit = 0.0;  ///< SI
   };
   std::vector<Condition> conditions;  ///< all of them hold
   std::string status;                 ///< one of kStatusNames
-  std::string text;                   ///< as it was written
+  std::string text;                   ///< as it was written, and what its lengths are in where they are not metres
 };
 
 inline constexpr std::string_view kDefaultBulkRule = "pings >= 5, snr > 10, no edge -> accept";
 
+/// length  that depths and lengths of the text are in, as the list's own filter has them
 /// errors  usage: what was not understood, and what was expected
-[[nodiscard]] Result<BulkRule> bulk_rule(std::string_view text);
+[[nodiscard]] Result<BulkRule> bulk_rule(std::string_view text, const Unit& length = {1.0, "m"});
 /// What is not measured holds against no condition.
 [[nodiscard]] bool meets(const BulkRule& rule, const SurveySchool& school);
 
@@ -57,7 +59,7 @@ class Review : public SchoolTable {
   /// Name of the digit's species, 1 to 9; 0 = none. Empty where there is no such species.
   [[nodiscard]] std::string species(int digit) const;
   void set_species(int digit);
-  /// One step that can be undone, over all unreviewed schools of the survey.
+  /// One step that can be undone, over all unreviewed schools of the survey. Lengths are in the user's unit.
   /// errors  usage: a rule that is not understood, or that no school meets
   Result<void> decide_all(std::string_view rule);
   [[nodiscard]] std::size_t unreviewed() const;

@@ -29,7 +29,9 @@ void decide_all(AppModel& app, Review& review) {
   std::string rule(kDefaultBulkRule);
   for (;;) {
     if (!app.dialogs.text) return;
-    rule = app.dialogs.text("Review by a rule", "Of all schools that are not reviewed, those with", rule).value_or("");
+    const std::string label = fmt::format("Of all schools that are not reviewed, those with (depth and length in {})",
+                                          app.workspace.units().length().name);
+    rule = app.dialogs.text("Review by a rule", label, rule).value_or("");
     if (rule.empty()) return;
     const auto done = review.decide_all(rule);
     if (done) return;

@@ -31,6 +31,21 @@ TEST(BulkRules, AreReadAsTheyAreSpoken) {
   EXPECT_EQ(bulk_rule("Volume<1e3->REJECT")->status, "rejected");
 }
 
+// A foot is 0.3048 m, a fathom six; volumes stay in m3 whatever lengths are read in.
+TEST(BulkRules, LengthsAreInTheUnitThatListsShow) {
+  const char* text = "depth > 100, length <= 10, volume > 500 -> reject";
+  const auto feet = bulk_rule(text, Units{LengthUnit::feet}.length());
+  ASSERT_TRUE(feet);
+  EXPECT_DOUBLE_EQ(feet->conditions[0].limit, 30.48);
+  EXPECT_DOUBLE_EQ(feet->conditions[1].limit, 3.048);
+  EXPECT_EQ(feet->conditions[2].limit, 500.0);
+  EXPECT_EQ(feet->text, std::string(text) + " (lengths in ft)") << "who reads the journal has no preferences";
+  EXPECT_DOUBLE_EQ(bulk_rule(text, Units{LengthUnit::fathoms}.length())->conditions[0].limit, 182.88);
+  EXPECT_EQ(bulk_rule(text)->conditions[0].limit, 100.0);
+  EXPECT_EQ(bulk_rule(text)->text, text);
+  EXPECT_EQ(bulk_rule("pings > 5 -> accept", Units{LengthUnit::feet}.length())->text, "pings > 5 -> accept");
+}
+
 TEST(BulkRules, WhatIsNotUnderstoodIsNamed) {
   for (const auto& [text, said] :
        std::vector<std::pair<std::string, std::string>>{{"pings >= 5", "says not what to do"},
@@ -198,7 +213,8 @@ TEST_F(ReviewAtWork, ARuleDecidesAllInOneStepThatCanBeUndone) {
   paint(2, 3, 12, 12, 300);
   document().settle();
   const std::size_t lines = document().choices().lines->size();
-  app_->dialogs.text = [](const auto&, const auto&, const std::string& rule) {
+  app_->dialogs.text = [](const auto&, const std::string& label, const std::string& rule) {
+    EXPECT_THAT(label, HasSubstr("depth and length in m"));
     EXPECT_EQ(rule, kDefaultBulkRule);
     return std::string("pings >= 5 -> accept");
   };
@@ -212,6 +228,27 @@ TEST_F(ReviewAtWork, ARuleDecidesAllInOneStepThatCanBeUndone) {
   press("edit.undo");
   document().settle();
   EXPECT_EQ(with_status("accepted"), 0);
+}
+
+TEST_F(ReviewAtWork, ARuleTakesWhatTheFilterOfItsListTakes) {
+  paint(2, 6, 5, 5, 200);
+  paint(2, 3, 12, 12, 300);
+  document().settle();
+  WindowParams window = workspace().window.values();
+  window.units.lengths = LengthUnit::feet;
+  workspace().window.assign(window);
+  document().settle();
+  const auto least =
+      std::ranges::min(survey_schools(document()), {}, [](const SurveySchool& s) { return s.row->depth_m; });
+  const auto most =
+      std::ranges::max(survey_schools(document()), {}, [](const SurveySchool& s) { return s.row->depth_m; });
+  const std::string limit = fmt::format("depth>{:.3f}", 0.5 * (least.row->depth_m + most.row->depth_m) / 0.3048);
+  int left = 0;
+  for (std::size_t row = 0; row < review().rows(); ++row) left += row_matches(review(), row, limit) ? 1 : 0;
+  ASSERT_EQ(left, 1);
+  ASSERT_TRUE(review().decide_all(limit + " -> reject"));
+  document().settle();
+  EXPECT_EQ(with_status("rejected"), left);
 }
 
 TEST_F(ReviewAtWork, ARuleReachesAllObservationsAtOnce) {

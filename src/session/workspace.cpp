@@ -88,6 +88,8 @@ Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
       views(changes),
       picture_file(changes),
       reduce(changes),
+      integrate(changes),
+      fish(changes),
       plane(changes),
       window(changes),
       figure(changes),

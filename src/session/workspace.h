@@ -15,10 +15,12 @@
 #include "model/transect.h"
 #include "model/transfer_function.h"
 #include "pipeline/exports/reduce.h"
+#include "pipeline/integrate/integrate_params.h"
 #include "session/change_queue.h"
 #include "session/display.h"
 #include "session/document.h"
 #include "session/listeners.h"
+#include "session/numbers/fish_params.h"
 #include "session/parameters.h"
 #include "session/picture_file.h"
 #include "session/slices/plane_place.h"
@@ -136,6 +138,8 @@ struct Workspace {
   Parameters<ViewSwitches> views;
   Parameters<PictureFileParams> picture_file;
   Parameters<ReduceParams> reduce;
+  Parameters<IntegrateParams> integrate;
+  Parameters<FishParams> fish;
   Parameters<PlanePlace> plane;  ///< where the plane slice lies; of the observation, not a preference
   Parameters<WindowParams> window;
   Parameters<FigureParams> figure;  ///< several views on a page

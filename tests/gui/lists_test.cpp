@@ -6,10 +6,12 @@
 
 #include <QClipboard>
 #include <QHeaderView>
+#include <QImage>
 #include <QLineEdit>
 #include <QTreeView>
 #include <algorithm>
 
+#include "gui/rows_view.h"
 #include "session/review.h"
 #include "window_at_work.h"
 
@@ -175,6 +177,71 @@ TEST_F(Lists, TheTreeShowsTimePingsAndSchoolsWithoutBeingMoved) {
     EXPECT_LE(list("survey_tree").sizeHintForIndex(time).width(), header.sectionSize(time.column()));
     EXPECT_GT(time.data(Qt::ToolTipRole).toString().size(), time.data().toString().size()) << "year and seconds";
   }
+}
+
+/// A list of one figure, which is told in one unit or in another.
+class Told : public Rows {
+ public:
+  Told() { tell("m", "1.5", "1.5 \u00B1 0.1"); }
+  [[nodiscard]] const std::vector<ListColumn>& columns() const override { return titles_; }
+  [[nodiscard]] std::size_t rows() const override { return 3; }
+  [[nodiscard]] Cell cell(std::size_t /*row*/, std::size_t column) const override {
+    return column == 0 ? cell_ : Cell{"a word", std::string("a word")};
+  }
+  void tell(const std::string& unit, const std::string& brief, const std::string& text) {
+    titles_[0].unit = unit;
+    cell_ = {text, 1.5, brief};
+    changed().tell();
+  }
+
+ private:
+  std::vector<ListColumn> titles_{{"D", "m", "", true}, {"Word", "", ""}, {"Last", "", ""}};
+  Cell cell_;
+};
+
+int cells_px(const QTreeView& list) { return static_cast<const QAbstractItemView&>(list).sizeHintForColumn(0); }
+
+TEST(ListColumns, AreFittedAnewInAnotherUnitButNotWhereAHandGaveAWidth) {
+  Told rows;
+  RowsView view(rows, false);
+  view.resize(400, 200);
+  view.show();
+  auto& list = *view.findChild<QTreeView*>("rows");
+  const int before = list.columnWidth(0);
+  EXPECT_GE(before, cells_px(list));
+  rows.tell("m", "1234567890123.5", "");
+  EXPECT_EQ(list.columnWidth(0), before) << "a list does not jump while its figures change";
+  rows.tell("a unit of a long name", "1234567890123.5", "");
+  const int title = list.header()->fontMetrics().horizontalAdvance("D [a unit of a long name]");
+  EXPECT_GT(title, before) << "else nothing is tested";
+  EXPECT_GE(list.columnWidth(0), title);
+  EXPECT_GE(list.columnWidth(0), cells_px(list));
+  list.header()->resizeSection(0, 45);
+  rows.tell("m", "1.5", "");
+  EXPECT_EQ(list.columnWidth(0), 45) << "a hand's own";
+}
+
+TEST(ListColumns, TellStandardErrorsWhereThereIsRoom) {
+  Told rows;
+  RowsView view(rows, false);
+  view.resize(600, 200);
+  view.show();
+  auto& list = *view.findChild<QTreeView*>("rows");
+  const auto looks = [&] { return list.viewport()->grab().toImage(); };
+  const QFontMetrics& font = list.fontMetrics();
+  EXPECT_GE(list.columnWidth(0), font.horizontalAdvance("1.5 \u00B1 0.1"));
+  const QImage told = looks();
+  rows.tell("m", "1.5", "1.5 \u00B1 0.7");
+  EXPECT_NE(looks(), told) << "the error is on the screen, not under the pointer alone";
+  view.resize(120, 200);
+  EXPECT_LT(list.columnWidth(0), font.horizontalAdvance("1.5 \u00B1 0.7"));
+  const QImage brief = looks();
+  rows.tell("m", "1.5", "1.5 \u00B1 0.1");
+  EXPECT_EQ(looks(), brief) << "nothing is cut where it has no room";
+  list.header()->resizeSection(0, 100);
+  const QImage wide = looks();
+  rows.tell("m", "1.5", "1.5 \u00B1 0.7");
+  EXPECT_NE(looks(), wide) << "a hand gave it room";
 }
 
 TEST_F(Lists, AReviewIsThreeKeysASchool) {

@@ -148,6 +148,28 @@ Result<void> require_same_pings(const fs::path& first, const fs::path& other) {
               {other.string()});
 }
 
+/// The first of an observation's products that can be read; empty where none can. Those that cannot are told.
+/// errors  mismatch, as require_same_pings()
+Result<std::optional<ObservationProduct>> first_sound(std::span<const fs::path> files, std::vector<Error>& damaged) {
+  std::optional<ObservationProduct> sound;
+  const fs::path* path = nullptr;
+  for (const fs::path& file : files) {
+    if (sound) {
+      if (!read_product_key(file)) continue;  // it is not needed
+      if (auto same = require_same_pings(*path, file); !same) return pass_on(same);
+      continue;
+    }
+    auto product = read_product(file);
+    if (product) {
+      sound = std::move(*product);
+      path = &file;
+    } else {
+      damaged.push_back(product.error());
+    }
+  }
+  return sound;
+}
+
 }  // namespace
 
 SurveyFiles survey_of_products(std::span<const std::shared_ptr<const ObservationProduct>> products,
@@ -159,31 +181,30 @@ SurveyFiles survey_of_products(std::span<const std::shared_ptr<const Observation
 }
 
 Result<ResultsAlone> open_results(std::span<const fs::path> folders, const std::string& why, Work& work) {
-  std::map<std::string, fs::path> paths;
+  std::map<std::string, std::vector<fs::path>> paths;
   for (const fs::path& folder : folders) {
     const auto files = product_files(folder);
     if (!files) return pass_on(files);
-    for (const fs::path& file : *files) {
-      const auto [known, is_new] = paths.emplace(file.stem().string(), file);
-      if (is_new) continue;
-      if (auto same = require_same_pings(known->second, file); !same) return pass_on(same);
-    }
+    for (const fs::path& file : *files) paths[file.stem().string()].push_back(file);
   }
   if (paths.empty()) return fail(ErrorCode::not_found, why);
   std::vector<std::string> names;
-  for (const auto& [name, file] : paths) names.push_back(name);
+  for (const auto& [name, files] : paths) names.push_back(name);
   std::sort(names.begin(), names.end(), name_less);
   ResultsAlone results;
+  std::vector<Error> damaged;
   for (const std::string& name : names) {
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
     work.progress("reading the results", std::ssize(results.products), std::ssize(names));
-    auto product = read_product(paths.at(name));
+    auto product = first_sound(paths.at(name), damaged);
     if (!product) return pass_on(product);
-    if (product->pings.empty()) continue;
-    product->background_db = {};
-    results.products.push_back(std::make_shared<const ObservationProduct>(std::move(*product)));
+    if (!*product || (*product)->pings.empty()) continue;
+    (*product)->background_db = {};
+    results.products.push_back(std::make_shared<const ObservationProduct>(std::move(**product)));
   }
+  if (results.products.empty() && !damaged.empty()) return tl::unexpected(damaged.front());
   if (results.products.empty()) return fail(ErrorCode::not_found, why);
+  for (const Error& error : damaged) results.notices.push_back(to_line(error));
   results.survey = survey_of_products(results.products);
   results.survey.raw_gone = why;
   return results;

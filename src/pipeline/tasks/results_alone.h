@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/result.h"
@@ -19,12 +20,13 @@ namespace sonar {
 struct ResultsAlone {
   SurveyFiles survey;
   std::vector<std::shared_ptr<const ObservationProduct>> products;  ///< [observation], without background levels
+  std::vector<std::string> notices;  ///< products that cannot be read, as a merge tells them
 };
 
-/// folders  work folders of runs; of an observation that several have, the first's product is taken
+/// folders  work folders of runs; of an observation that several have, the first product that can be read is taken
 /// why      no ping can be read
 /// errors   not_found: they hold no product with pings; mismatch: one name stands for different pings; cancelled; as
-///          read_product()
+///          read_product() where none can be read
 [[nodiscard]] Result<ResultsAlone> open_results(std::span<const std::filesystem::path> folders, const std::string& why,
                                                 Work& work);
 

@@ -32,11 +32,7 @@ struct Wish {
 
 Result<Biomass> computed(const Wish& wish) {
   std::vector<ObservationProduct> products;
-  for (const ProductPtr& product : wish.products) {
-    products.push_back(*product);
-    products.back().masks.clear();
-    products.back().background_db.clear();
-  }
+  for (const ProductPtr& product : wish.products) products.push_back(without_voxels(*product));
   auto survey = merge(std::move(products));
   if (!survey) return pass_on(survey);
   number_known(survey->observations, wish.numbers, wish.all);
@@ -72,7 +68,7 @@ FrequencyBand sonar_of(const std::vector<ProductPtr>& products) {
 }  // namespace
 
 FishBiomass::FishBiomass(Workspace& workspace, Integration& integration)
-    : params(workspace.queue),
+    : params(workspace.fish),
       school_rows([this](std::size_t row) { select(row); }),
       workspace_(workspace),
       integration_(integration) {
@@ -93,6 +89,7 @@ FishBiomass::FishBiomass(Workspace& workspace, Integration& integration)
 
 void FishBiomass::begin() {
   begun_ = true;
+  choose_known_relation();
   if (workspace_.document.survey() != nullptr) workspace_.document.open_all();
   again();
 }
@@ -103,12 +100,18 @@ Result<void> FishBiomass::read_relations(const std::filesystem::path& file) {
   relations_ = std::move(*table);
   relations_file_ = file;
   spans_.clear();
-  FishParams now = params.values();
-  if (!ts_relation_named(relations_, now.relation)) now.relation = relations_.front().name;
-  params.assign(std::move(now));
+  choose_known_relation();
   again();
   changed_.tell();
   return {};
+}
+
+/// Preferences may have kept one of a table that is not open.
+void FishBiomass::choose_known_relation() {
+  FishParams now = params.values();
+  if (ts_relation_named(relations_, now.relation)) return;
+  now.relation = relations_.front().name;
+  params.assign(std::move(now));
 }
 
 Result<void> FishBiomass::read_lengths(const std::filesystem::path& file) {

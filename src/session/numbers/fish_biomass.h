@@ -34,7 +34,7 @@ class FishBiomass {
   FishBiomass(const FishBiomass&) = delete;
   FishBiomass& operator=(const FishBiomass&) = delete;
 
-  Parameters<FishParams> params;
+  Parameters<FishParams>& params;  ///< the workspace's
 
   /// Somebody looks: schools of all observations are measured, and figures follow from now on.
   void begin();
@@ -82,6 +82,7 @@ class FishBiomass {
   void again();
   void compute();
   void select(std::size_t row);
+  void choose_known_relation();
   [[nodiscard]] Result<FishChoice> chosen_fish() const;
   void put(std::shared_ptr<const Biomass> result, std::string told);
   [[nodiscard]] std::string notes_of(const Biomass& done, std::size_t unmeasured) const;

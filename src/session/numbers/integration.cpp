@@ -52,7 +52,7 @@ std::string notes_of(const Integrated& done) {
 }  // namespace
 
 Integration::Integration(Workspace& workspace)
-    : params(workspace.queue),
+    : params(workspace.integrate),
       effort_rows([this](std::size_t row) { go_to(row, 0.0); }),
       nasc_rows([this](std::size_t row) {
         if (!result_) return;

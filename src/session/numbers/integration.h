@@ -28,7 +28,7 @@ class Integration {
   Integration(const Integration&) = delete;
   Integration& operator=(const Integration&) = delete;
 
-  Parameters<IntegrateParams> params;
+  Parameters<IntegrateParams>& params;  ///< the workspace's
 
   /// Opens and measures what is not yet, then integrates.
   /// errors  usage: no survey is open, its raw files are not here, or it runs already; bad_parameter

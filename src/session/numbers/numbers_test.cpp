@@ -207,6 +207,18 @@ TEST_F(Numbers, RelationsOfATableTakeThePlaceOfThePrograms) {
   EXPECT_EQ(fish().relations().size(), 1U);
 }
 
+TEST_F(Numbers, ARelationThatNoTableHasAnyMoreIsNotCounted) {
+  document().detect({0});
+  document().settle();
+  FishParams kept;
+  kept.relation = "of a table that was open last week";
+  fish().params.assign(kept);
+  fish().begin();
+  fish().settle();
+  EXPECT_EQ(fish().params.values().relation, fish().relations().front().name);
+  EXPECT_TRUE(fish().result()) << fish().told();
+}
+
 TEST_F(Numbers, TheChartOfSchoolsShowsSvOverIncidence) {
   show_incidence_chart(workspace());
   const auto x = workspace().picture_file.value("chart.x");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct SurveyMapDrawing {
   const Theme& theme;
   const SchoolLook& look;
   double em;
+  std::optional<PixelRect> bars;  ///< of the scale
 };
 
 inline constexpr Rgba8 kSweptColour{110, 110, 110, 95};
