@@ -3,8 +3,10 @@
 
 #include <QCommandLinkButton>
 #include <QLabel>
+#include <QPushButton>
 #include <QToolButton>
 
+#include "gui/action_menus.h"
 #include "window_at_work.h"
 
 namespace sonar {
@@ -52,6 +54,33 @@ TEST_F(StartPage, OpensWhatWasOpenBeforeAtAClick) {
   settle();
   ASSERT_NE(document().survey(), nullptr);
   EXPECT_FALSE(page()->isVisible());
+}
+
+// Another survey stands for the demo, which takes longer to make than a test may.
+TEST_F(StartPage, TheDemoAndItsTutorialAreAClickAway) {
+  const std::filesystem::path cache = TestSurvey::easy().fresh();
+  const std::filesystem::path made = cache / "sonar-explorer" / "demo-test";
+  std::filesystem::create_directories(made);
+  std::filesystem::copy(TestSurvey::easy().folder(), made, std::filesystem::copy_options::recursive);
+  std::filesystem::create_directories(made / "truth" / "complete");
+  const QByteArray before = qgetenv("XDG_CACHE_HOME");
+  qputenv("XDG_CACHE_HOME", cache.c_str());
+  auto* demo = window_->findChild<QPushButton*>("start.file.demo");
+  ASSERT_TRUE(demo->isVisible());
+  click_on(demo, {0.5 * demo->width(), 0.5 * demo->height()});
+  EXPECT_TRUE(document().staged());
+  EXPECT_EQ(document().paths(), std::vector{made});
+  EXPECT_FALSE(page()->isVisible());
+  std::filesystem::path shown;
+  app_->dialogs.show_page = [&shown](const std::filesystem::path& page) {
+    shown = page;
+    return true;
+  };
+  find_action(*window_, "help.tutorial")->trigger();
+  settle();
+  EXPECT_EQ(shown.filename(), "tutorial.md");
+  EXPECT_EQ(document().paths(), std::vector{made});
+  before.isNull() ? qunsetenv("XDG_CACHE_HOME") : qputenv("XDG_CACHE_HOME", before);
 }
 
 TEST_F(StartPage, IsUsedByKeysAlone) {

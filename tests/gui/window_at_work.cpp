@@ -2,6 +2,8 @@
 #include "window_at_work.h"
 
 #include <QScreen>
+#include <QToolButton>
+#include <QWheelEvent>
 #include <algorithm>
 
 #include "pipeline/stages/observe.h"
@@ -62,6 +64,21 @@ void WindowAtWork::settle() {
     while (app_->animations.running()) QApplication::processEvents(QEventLoop::WaitForMoreEvents);
     settle_jobs();
   } while (app_->animations.running());
+}
+
+void WindowAtWork::wheel(const std::string& dock, PixelPoint at, int steps, Qt::KeyboardModifiers keys) {
+  QWidget* on = view(dock);
+  const QPointF place(at.x, at.y);
+  QWheelEvent event(place, on->mapToGlobal(place), {}, {0, 120 * steps}, Qt::NoButton, keys, Qt::NoScrollPhase, false);
+  QApplication::sendEvent(on, &event);
+  settle();
+}
+
+void WindowAtWork::unfold(const char* section) {
+  for (auto* fold : view("controls")->findChildren<QToolButton*>()) {
+    if (fold->text() == section && !fold->isChecked()) QTest::mouseClick(fold, Qt::LeftButton);
+  }
+  settle();
 }
 
 PixelPoint WindowAtWork::place_in(const std::string& dock, const Voxel& voxel) {

@@ -8,6 +8,7 @@
 #include <QTest>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "gate.h"
@@ -92,10 +93,28 @@ class WindowAtWork : public testing::Test {
     move(dock, to);
     release_on(view(dock), to, keys);
   }
+  /// Held with the middle button: what is zoomed is moved.
+  void middle_drag(const std::string& dock, PixelPoint from, PixelPoint to) {
+    QTest::mousePress(window_->windowHandle(), Qt::MiddleButton, {}, in_window(view(dock), from));
+    move(dock, to);
+    QTest::mouseRelease(window_->windowHandle(), Qt::MiddleButton, {}, in_window(view(dock), to));
+    settle();
+  }
+  void wheel(const std::string& dock, PixelPoint at, int steps, Qt::KeyboardModifiers keys = {});
   void key(Qt::Key key, Qt::KeyboardModifiers keys = {}) {
     QTest::keyClick(window_->windowHandle(), key, keys);
     settle();
   }
+  /// A control of the panel; its section is unfolded by a click where it is folded.
+  template <class Control>
+  Control& control(const char* section, const char* name) {
+    unfold(section);
+    auto* found = view("controls")->findChild<Control*>(name);
+    if (found == nullptr || !found->isVisible()) throw std::runtime_error(std::string("no control is seen: ") + name);
+    found->setFocus(Qt::TabFocusReason);
+    return *found;
+  }
+  void unfold(const char* section);
   void type(const std::string& text) {
     for (const char letter : text) QTest::keyClick(window_->windowHandle(), letter);
     settle();
