@@ -63,7 +63,10 @@ std::optional<PixelRect> shown_of(const SlicePicture& picture, const SliceWish& 
       voxel->sample = run.first_sample;
     }
   }
-  if (low.x > high.x) return std::nullopt;
+  const PixelRect& plot = picture.plot.place;  // zoomed, some of it lies beyond
+  low = {std::max(low.x, plot.x), std::max(low.y, plot.y)};
+  high = {std::min(high.x, plot.x + plot.width), std::min(high.y, plot.y + plot.height)};
+  if (low.x > high.x || low.y > high.y) return std::nullopt;
   return PixelRect{low.x, low.y, high.x - low.x, high.y - low.y};
 }
 
