@@ -21,8 +21,8 @@ class Following : public ClockedWindow {
  protected:
   /// A school over several pings; the window looks at the first of them, with the slices elsewhere and nothing selected.
   void follow_a_school() {
-    const Target target = look_at_school();
-    double_click("top_slice", place_in("top_slice", target.voxel));
+    target_ = look_at_school();
+    double_click("top_slice", place_in("top_slice", target_.voxel));
     ASSERT_GT(masks().size(), 2U);
     masks_ = document().state().schools.front()->masks;
     document().look_at(masks().front().ping_index);
@@ -74,6 +74,7 @@ class Following : public ClockedWindow {
     }
     return within;
   }
+  Target target_;
   SchoolMasks masks_;
 };
 
@@ -105,9 +106,8 @@ TEST_F(Following, TheLockLeavesThemWhereTheyAre) {
 }
 
 TEST_F(Following, AlsoToOnePickedOnTheMapOrInTheVolume) {
-  const Target target = look_at_school();
   ASSERT_NO_FATAL_FAILURE(follow_a_school());
-  document().look_at(target.ping);
+  document().look_at(target_.ping);
   settle();
   raise("observation_map");
   const auto& map = dynamic_cast<ObservationMapModel&>(*app_->picture("observation_map"));
@@ -128,7 +128,8 @@ TEST_F(Following, AlsoToOnePickedOnTheMapOrInTheVolume) {
   ASSERT_FALSE(both_cut());
   const auto& volume = dynamic_cast<VolumeModel&>(*app_->picture("volume"));
   const Sector& sector = document().shown()->sector();
-  const auto seen = volume.shown()->place_of(sector.centre(target.voxel.fan, target.voxel.beam, target.voxel.sample));
+  const auto seen =
+      volume.shown()->place_of(sector.centre(target_.voxel.fan, target_.voxel.beam, target_.voxel.sample));
   ASSERT_TRUE(seen);
   click("volume", {std::floor(seen->x), std::floor(seen->y)});
   ASSERT_TRUE(workspace().school());

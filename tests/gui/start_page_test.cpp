@@ -42,6 +42,9 @@ TEST_F(StartPage, GrowsWithTheWindow) {
 }
 
 TEST_F(StartPage, OpensWhatWasOpenBeforeAtAClick) {
+  close();
+  cache_ = TestSurvey::easy().fresh();
+  open();
   document().open({TestSurvey::easy().folder()});
   settle();
   preferences_ = app_->preferences;
@@ -50,6 +53,8 @@ TEST_F(StartPage, OpensWhatWasOpenBeforeAtAClick) {
   auto* before = window_->findChild<QToolButton*>("start.recent.1");
   ASSERT_NE(before, nullptr);
   EXPECT_TRUE(before->text().startsWith(QString::fromStdString(TestSurvey::easy().folder().filename().string())));
+  EXPECT_TRUE(shows_something(before->icon().pixmap(before->iconSize()))) << "how it looked";
+  keep_picture("start-recent");
   QTest::mouseClick(before, Qt::LeftButton);
   settle();
   ASSERT_NE(document().survey(), nullptr);

@@ -5,6 +5,7 @@
 #include <QToolButton>
 #include <QWheelEvent>
 #include <algorithm>
+#include <set>
 
 #include "pipeline/stages/observe.h"
 
@@ -19,6 +20,7 @@ void WindowAtWork::open() {
   pump_ = std::make_unique<QueuePump>([this] { gate_.pass(); });
   DocumentOptions options = TestSurvey::options(journal_);
   options.recipe = recipe_;
+  options.cache.folder = cache_;
   app_ = std::make_unique<AppModel>(pump_->queue(), std::move(options));
   app_->preferences = preferences_;
   // A volume at rest is the mean of many pictures; one is enough for whoever does not look at it.
@@ -45,6 +47,15 @@ void WindowAtWork::keep_picture(const std::string& name) {
   const QString folder = qEnvironmentVariable("SONAR_GUI_PICTURES");
   if (folder.isEmpty() || !window_) return;
   window_->grab().save(folder + "/" + QString::fromStdString(name) + ".png");
+}
+
+bool WindowAtWork::shows_something(const QPixmap& picture) {
+  const QImage image = picture.toImage();
+  std::set<QRgb> colours;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) colours.insert(image.pixel(x, y));
+  }
+  return colours.size() > 20;
 }
 
 void WindowAtWork::settle_jobs() {

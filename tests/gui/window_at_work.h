@@ -5,6 +5,7 @@
 
 #include <QApplication>
 #include <QDockWidget>
+#include <QPixmap>
 #include <QTest>
 #include <filesystem>
 #include <memory>
@@ -36,6 +37,8 @@ class WindowAtWork : public testing::Test {
   void close();
   /// The window as it is now, in the folder that SONAR_GUI_PICTURES names; nothing where it names none.
   void keep_picture(const std::string& name);
+  /// Whether a picture has more than a few colours: it is of something.
+  [[nodiscard]] static bool shows_something(const QPixmap& picture);
 
   [[nodiscard]] Document& document() { return app_->workspace.document; }
   [[nodiscard]] Workspace& workspace() { return app_->workspace; }
@@ -134,7 +137,8 @@ class WindowAtWork : public testing::Test {
 
   std::filesystem::path survey_ = TestSurvey::easy().folder();  ///< empty = none is opened
   std::filesystem::path journal_ = TestSurvey::easy().fresh();
-  Recipe recipe_;  ///< that the window works under
+  std::filesystem::path cache_;  ///< of the user; empty = there is none
+  Recipe recipe_;                ///< that the window works under
   Preferences preferences_;
   Gate gate_;
   std::unique_ptr<QueuePump> pump_;
