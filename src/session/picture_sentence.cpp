@@ -53,7 +53,11 @@ std::string slice_words(const Workspace& workspace, SliceKind kind) {
 std::string what(const AppModel& app, const PictureDock& dock) {
   const auto slice =
       std::find_if(kSliceDocks.begin(), kSliceDocks.end(), [&](const auto& one) { return one.first == dock.id; });
-  return slice == kSliceDocks.end() ? dock.title : slice_words(app.workspace, slice->second);
+  if (slice != kSliceDocks.end()) return slice_words(app.workspace, slice->second);
+  const MotionBetween& motion = app.workspace.motion();
+  if (dock.id != "volume" || motion.from == nullptr || motion.to == nullptr) return dock.title;
+  return fmt::format("{}, interpolated between pings {} and {}", dock.title, motion.from->ping_index,
+                     motion.to->ping_index);
 }
 
 /// "obs-0001, ping 66 of 78, 3 schools".

@@ -125,6 +125,25 @@ TEST(ColourBar, NamesBothLimitsTheUnitAndTheThreshold) {
                                                      "\u221251.5 dB", "\u221257", "\u221227"}));
 }
 
+TEST(ColourBar, AShortOnesLabelReachesNoTitle) {
+  const Theme theme = light_theme({800, 600});
+  for (const double height : {24.0, 48.0, 96.0, 300.0}) {
+    FrameDescription frame;
+    const PixelRect place{20, 200, 20, height};
+    add_colour_bar(frame, place, colour_bar(sv_colours(SvScale{})), theme);
+    const auto turned = [](const auto& item) {
+      const auto* text = std::get_if<TextItem>(&item);
+      return text != nullptr && text->turned_deg != 0.0;
+    };
+    const auto found = std::find_if(frame.items.begin(), frame.items.end(), turned);
+    ASSERT_NE(found, frame.items.end());
+    const auto& label = std::get<TextItem>(*found);
+    const double above = label.at.y - 0.5 * text_width_px(label.text.c_str(), label.size_px);
+    EXPECT_GE(above, place.y - 0.9 * theme.text_px) << height;
+    EXPECT_EQ(label.text == "Sv (dB re 1 m\u207B\u00B9)", height > 48.0) << height << ": " << label.text;
+  }
+}
+
 TEST(ColourBar, DepthReadsDownwards) {
   FrameDescription frame;
   const ColourMap& deep = colour_map(ColourMapName::deep);

@@ -60,9 +60,11 @@ void add_ticks(FrameDescription& frame, const BarAxis& axis, const Ticks& ticks,
   add_tick(frame, axis, axis.top, end_decimals, true, theme);
 }
 
+/// Beside a short bar it is cut: above lies the title.
 void add_label(FrameDescription& frame, const PixelRect& place, const Theme& theme, const std::string& label) {
-  TextItem item = text_item({place.x + place.width + 4.7 * theme.text_px, place.y + place.height / 2}, label,
-                            theme.text_px, theme.muted, TextAnchor::centre);
+  TextItem item = text_item({place.x + place.width + 4.7 * theme.text_px, place.y + place.height / 2},
+                            elided(label, theme.text_px, place.height + 1.6 * theme.text_px), theme.text_px,
+                            theme.muted, TextAnchor::centre);
   item.turned_deg = -90.0;
   frame.items.emplace_back(std::move(item));
 }

@@ -45,6 +45,27 @@ class Asked : public WindowAtWork {
     QTest::mouseClick(dialog.findChild<QDialogButtonBox*>()->button(which), Qt::LeftButton);
   }
   const std::string& told() { return document().notices().back(); }
+  static void type_number(QDialog& dialog, const char* name, const char* typed) {
+    auto* box = dialog.findChild<QSpinBox*>(name);
+    ASSERT_NE(box, nullptr) << name;
+    box->setFocus();
+    box->selectAll();
+    QTest::keyClicks(box, typed);
+    QTest::keyClick(box, Qt::Key_Tab);
+  }
+  /// What moves in a small movie of a volume, so many entries down the list; each picture is kept beside it.
+  static void choose_motion(QDialog& dialog, int down) {
+    type_number(dialog, "width_px", "400");
+    type_number(dialog, "height_px", "300");
+    auto* motion = dialog.findChild<QComboBox*>("movie.motion");
+    ASSERT_NE(motion, nullptr);
+    motion->setFocus();
+    for (int i = 0; i < down; ++i) QTest::keyClick(motion, Qt::Key_Down);
+    auto* each = dialog.findChild<QCheckBox*>("movie.each_picture");
+    ASSERT_NE(each, nullptr);
+    each->setFocus();
+    QTest::keyClick(each, Qt::Key_Space);
+  }
   fs::path out_ = TestSurvey::easy().fresh();
 };
 
@@ -72,25 +93,8 @@ TEST_F(Asked, ATurntableTurnsOnePing) {
   raise("volume");
   app_->dialogs.folder_to_save = [this](const auto&, const auto&) { return out_.string(); };
   trigger("export.movie_volume", [](QDialog& dialog) {
-    const auto number = [&dialog](const char* name, const char* typed) {
-      auto* box = dialog.findChild<QSpinBox*>(name);
-      ASSERT_NE(box, nullptr) << name;
-      box->setFocus();
-      box->selectAll();
-      QTest::keyClicks(box, typed);
-      QTest::keyClick(box, Qt::Key_Tab);
-    };
-    number("width_px", "400");
-    number("height_px", "300");
-    number("movie.turntable_pictures", "3");
-    auto* motion = dialog.findChild<QComboBox*>("movie.motion");
-    ASSERT_NE(motion, nullptr);
-    motion->setFocus();
-    QTest::keyClick(motion, Qt::Key_Down);
-    auto* each = dialog.findChild<QCheckBox*>("movie.each_picture");
-    ASSERT_NE(each, nullptr);
-    each->setFocus();
-    QTest::keyClick(each, Qt::Key_Space);
+    choose_motion(dialog, 1);
+    type_number(dialog, "movie.turntable_pictures", "3");
     press_button(dialog, QDialogButtonBox::Ok);
   });
   EXPECT_EQ(workspace().picture_file.values().kind.movie.motion, MovieMotion::turntable);
@@ -100,6 +104,24 @@ TEST_F(Asked, ATurntableTurnsOnePing) {
   ASSERT_TRUE(first && second);
   EXPECT_EQ(first->size.width, 400);
   EXPECT_NE(*first, *second) << "it turns";
+}
+
+// The camera stands still on the earth: the ship is elsewhere in each picture.
+TEST_F(Asked, AMovieSailsAlongTheTrack) {
+  raise("volume");
+  app_->dialogs.folder_to_save = [this](const auto&, const auto&) { return out_.string(); };
+  trigger("export.movie_volume", [](QDialog& dialog) {
+    choose_motion(dialog, 2);
+    type_number(dialog, "movie.first_ping", "2");
+    type_number(dialog, "movie.last_ping", "4");
+    press_button(dialog, QDialogButtonBox::Ok);
+  });
+  EXPECT_EQ(workspace().picture_file.values().kind.movie.motion, MovieMotion::along_track);
+  EXPECT_THAT(told(), testing::HasSubstr("written: 3 pictures"));
+  const auto first = read_png(out_ / "movie-0000.png");
+  const auto last = read_png(out_ / "movie-0002.png");
+  ASSERT_TRUE(first && last);
+  EXPECT_NE(*first, *last);
 }
 
 TEST_F(Asked, ARecipeThatIsEditedShowsItsPictureBesideTheOneInForce) {

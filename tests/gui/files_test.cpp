@@ -17,6 +17,7 @@
 #include <QTimer>
 #include <QToolButton>
 #include <QUrl>
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
@@ -26,6 +27,7 @@
 #include "publish/picture_options.h"
 #include "publish/picture_source.h"
 #include "render/draw_frame.h"
+#include "session/playback.h"
 #include "session/test_run.h"
 #include "window_at_work.h"
 
@@ -136,6 +138,52 @@ TEST_F(Files, ResultsOpenWithoutTheirRawFilesUntilTheseAreFound) {
 }
 
 // Found by its name, changed and used, by hand; what is saved on the way is a recipe that a run reads.
+TEST_F(Files, ASurveyIsReopenedWhereAndAsItWasLeft) {
+  app_->preferences.path = out_ / "preferences.json";
+  key(Qt::Key_D);
+  const std::size_t schools = document().state().schools.size();
+  ASSERT_GT(schools, 0U);
+  key(Qt::Key_Home);
+  for (int i = 0; i < 4; ++i) key(Qt::Key_Right);
+  key(Qt::Key_Plus);
+  const double rate = app_->playback->rate();
+  key(Qt::Key_2, Qt::AltModifier);
+  window_->resize(1500, 940);
+  settle();
+  window_->close();
+  const auto kept = Preferences::load(out_ / "preferences.json");
+  EXPECT_EQ(kept.notice, "");
+  close();
+  survey_.clear();
+  open();
+  app_->preferences = kept.preferences;  // as the program begins
+  app_->preferences.apply(workspace());
+  window_->take_layout(app_->preferences.window_layout);
+  document().open({TestSurvey::easy().folder()});
+  settle();
+  EXPECT_EQ(document().ping(), 4);
+  EXPECT_EQ(document().state().schools.size(), schools);
+  EXPECT_EQ(app_->playback->rate(), rate);
+  EXPECT_TRUE(dock("side_slice")->isHidden());
+  EXPECT_EQ(window_->size(), QSize(1500, 940));
+}
+
+TEST_F(Files, FilesAreOpenedByTheirDialogAndByDropping) {
+  std::vector<fs::path> raw;
+  for (const auto& entry : fs::directory_iterator(survey_)) {
+    if (entry.path().extension() == ".raw") raw.push_back(entry.path());
+  }
+  ASSERT_FALSE(raw.empty());
+  std::sort(raw.begin(), raw.end());
+  app_->dialogs.files_to_open = [&raw] { return std::vector{raw.front().string()}; };
+  trigger("file.open_files");
+  EXPECT_EQ(document().paths(), std::vector{raw.front()});
+  EXPECT_TRUE(document().staged());
+  drop(raw.back());
+  EXPECT_EQ(document().paths(), std::vector{raw.back()});
+  EXPECT_TRUE(document().staged());
+}
+
 TEST_F(Files, ARecipeIsChangedInItsDialog) {
   QTimer::singleShot(0, window_.get(), [this] {
     auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());

@@ -7,10 +7,13 @@
 #include <QClipboard>
 #include <QHeaderView>
 #include <QImage>
+#include <QInputDialog>
 #include <QLineEdit>
+#include <QTimer>
 #include <QTreeView>
 #include <algorithm>
 
+#include "gui/action_menus.h"
 #include "gui/rows_view.h"
 #include "session/review.h"
 #include "window_at_work.h"
@@ -286,6 +289,48 @@ TEST_F(Lists, KeysDecideAboutAllRowsThatAreSelected) {
   EXPECT_EQ(workspace().school(), first);
   key(Qt::Key_A);
   EXPECT_EQ(with_status("accepted"), 1U);
+}
+
+TEST_F(Lists, SpeciesAndCommentsAreOfAllRowsThatAreSelected) {
+  make_schools();
+  app_->preferences.advance = false;
+  click_row("schools", 0);
+  click_row("schools", 2, Qt::ControlModifier);
+  const auto chosen = workspace().chosen_schools();
+  ASSERT_EQ(chosen.size(), 2U);
+  key(Qt::Key_2);
+  QTimer::singleShot(0, window_.get(), [] {
+    auto* dialog = qobject_cast<QInputDialog*>(QApplication::activeModalWidget());
+    ASSERT_NE(dialog, nullptr);
+    QTest::keyClicks(dialog->findChild<QLineEdit*>(), "two layers");
+    QTest::keyClick(dialog->findChild<QLineEdit*>(), Qt::Key_Return);
+  });
+  find_action(*window_, "school.comment")->trigger();
+  settle();
+  for (const SurveySchool& school : survey_schools(document())) {
+    const bool one_of_them = chosen.contains(school.name);
+    EXPECT_EQ(school.decided().species, one_of_them ? "mackerel" : "") << school.name.number;
+    EXPECT_EQ(school.decided().comment, one_of_them ? "two layers" : "") << school.name.number;
+  }
+  EXPECT_EQ(document().choices().undo_text, "Undo comment on 2 schools");
+}
+
+TEST_F(Lists, AnUndoneDecisionBringsItsSchoolBackIntoSight) {
+  make_schools();
+  app_->preferences.advance = false;
+  click_row("schools", 0);
+  const auto first = workspace().school();
+  ASSERT_TRUE(first);
+  key(Qt::Key_R);
+  click_row("schools", static_cast<int>(rows("schools").rows()) - 1);
+  ASSERT_NE(workspace().school()->observation, first->observation) << "far away";
+  key(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(with_status("rejected"), 0U);
+  EXPECT_EQ(workspace().school(), first);
+  EXPECT_EQ(document().shown()->index(), first->observation);
+  const auto selected = workspace().selected();
+  ASSERT_TRUE(selected);
+  EXPECT_NE(in_ping(document().state().schools[*selected]->masks, document().ping()), nullptr);
 }
 
 TEST_F(Lists, KeysDecideAboutNoRowThatIsNotSeen) {

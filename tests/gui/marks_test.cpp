@@ -15,6 +15,10 @@ namespace {
 
 class MarksInTheWindow : public WindowAtWork {
  protected:
+  void SetUp() override {
+    cache_ = TestSurvey::easy().fresh();
+    open();
+  }
   QTreeView& list() { return *view("marks")->findChild<QTreeView*>("rows"); }
   void click_row(int row) {
     const QRect at = list().visualRect(list().model()->index(row, 0));
@@ -42,9 +46,10 @@ TEST_F(MarksInTheWindow, ABookmarkIsSetByAKeyAndLeadsBackByAClick) {
   click_row(0);
   EXPECT_EQ(document().ping(), ping);
   EXPECT_EQ(view_now(workspace()), seen);
-  // The window's test has no cache of the user's: a row still has its room, as all have.
   const auto picture = list().model()->index(0, 0).data(Qt::DecorationRole).value<QPixmap>();
   EXPECT_EQ(picture.size(), QSize(kThumbnail.width, kThumbnail.height));
+  EXPECT_TRUE(shows_something(picture)) << "as it was seen";
+  EXPECT_FALSE(shows_something(list().model()->index(1, 0).data(Qt::DecorationRole).value<QPixmap>())) << "a trawl";
   keep_picture("marks");
   key(Qt::Key_Delete);
   EXPECT_EQ(list().model()->rowCount(), 1);

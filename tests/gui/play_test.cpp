@@ -2,8 +2,15 @@
 // Playing through pings, on a clock that the test turns.
 #include <gtest/gtest.h>
 
+#include <QInputDialog>
+#include <QLineEdit>
+#include <QTimer>
+
 #include "clocked_window.h"
+#include "gui/action_menus.h"
+#include "session/picture_sentence.h"
 #include "session/playback.h"
+#include "session/volume/volume_model.h"
 
 namespace sonar {
 namespace {
@@ -87,6 +94,62 @@ TEST_F(Playing, CtrlSpaceHasTheFirstPingComeAfterTheLast) {
   }
   EXPECT_TRUE(app_->playback->playing());
   press(Qt::Key_Space);
+}
+
+TEST_F(Playing, AnyRateIsTypedInAndWhatIsNoneIsRefused) {
+  const auto type_rate = [this](const char* typed) {
+    QTimer::singleShot(0, window_.get(), [typed] {
+      auto* dialog = qobject_cast<QInputDialog*>(QApplication::activeModalWidget());
+      ASSERT_NE(dialog, nullptr);
+      auto* line = dialog->findChild<QLineEdit*>();
+      line->selectAll();
+      QTest::keyClicks(line, typed);
+      QTest::keyClick(line, Qt::Key_Return);
+    });
+    find_action(*window_, "ping.rate")->trigger();
+    settle_jobs();
+  };
+  type_rate("4");
+  EXPECT_EQ(app_->playback->rate(), 4.0);
+  type_rate("fast");
+  EXPECT_EQ(app_->playback->rate(), 4.0);
+  EXPECT_NE(document().notices().back().find("'fast' is no rate"), std::string::npos) << document().notices().back();
+  view("top_slice")->setFocus();
+  press(Qt::Key_Space);
+  tick(0.0);
+  tick(0.23);
+  EXPECT_EQ(document().ping(), 0);
+  tick(0.04);
+  EXPECT_EQ(document().ping(), 1);
+  press(Qt::Key_Space);
+}
+
+// Off at first. Between two pings the volume is of neither, says so, and is measured again as soon as nothing plays.
+TEST_F(Playing, MotionIsInterpolatedWhereThatIsAskedForAndMarked) {
+  raise("volume");
+  const auto& volume = dynamic_cast<VolumeModel&>(*app_->picture("volume"));
+  const auto half_way = [&] {
+    press(Qt::Key_Space);
+    tick(0.0);
+    tick(0.25);
+    ASSERT_EQ(document().ping(), 0);
+    ASSERT_TRUE(volume.shown());
+  };
+  half_way();
+  const Image measured = volume.image();
+  EXPECT_EQ(volume.shown()->ping_index, 0);
+  press(Qt::Key_Space);
+  press(Qt::Key_9, Qt::ControlModifier);
+  half_way();
+  EXPECT_EQ(volume.shown()->ping_index, -1);
+  EXPECT_NE(volume.image(), measured);
+  const auto said = [this] { return picture_sentence(*app_, "volume").find("interpolated") != std::string::npos; };
+  EXPECT_TRUE(said());
+  keep_picture("interpolated");
+  press(Qt::Key_Space);
+  EXPECT_EQ(volume.shown()->ping_index, 0);
+  EXPECT_EQ(volume.image(), measured);
+  EXPECT_FALSE(said());
 }
 
 }  // namespace

@@ -15,17 +15,7 @@
 namespace sonar {
 namespace {
 
-class FourSlicesInTheWindow : public WindowAtWork {
- protected:
-  void wheel(const std::string& dock, PixelPoint at, int steps) {
-    QWidget* on = view(dock);
-    const QPoint place(static_cast<int>(at.x), static_cast<int>(at.y));
-    QWheelEvent event(place, on->mapToGlobal(place), {}, {0, 120 * steps}, Qt::NoButton, Qt::NoModifier,
-                      Qt::NoScrollPhase, false);
-    QApplication::sendEvent(on, &event);
-    settle();
-  }
-};
+class FourSlicesInTheWindow : public WindowAtWork {};
 
 TEST_F(FourSlicesInTheWindow, TwoAreOffUntilTheyAreAskedForAndThenStandInFront) {
   for (const char* id : {"range_slice", "plane_slice"}) {

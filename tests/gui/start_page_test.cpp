@@ -3,8 +3,10 @@
 
 #include <QCommandLinkButton>
 #include <QLabel>
+#include <QPushButton>
 #include <QToolButton>
 
+#include "gui/action_menus.h"
 #include "window_at_work.h"
 
 namespace sonar {
@@ -40,6 +42,9 @@ TEST_F(StartPage, GrowsWithTheWindow) {
 }
 
 TEST_F(StartPage, OpensWhatWasOpenBeforeAtAClick) {
+  close();
+  cache_ = TestSurvey::easy().fresh();
+  open();
   document().open({TestSurvey::easy().folder()});
   settle();
   preferences_ = app_->preferences;
@@ -48,10 +53,39 @@ TEST_F(StartPage, OpensWhatWasOpenBeforeAtAClick) {
   auto* before = window_->findChild<QToolButton*>("start.recent.1");
   ASSERT_NE(before, nullptr);
   EXPECT_TRUE(before->text().startsWith(QString::fromStdString(TestSurvey::easy().folder().filename().string())));
+  EXPECT_TRUE(shows_something(before->icon().pixmap(before->iconSize()))) << "how it looked";
+  keep_picture("start-recent");
   QTest::mouseClick(before, Qt::LeftButton);
   settle();
   ASSERT_NE(document().survey(), nullptr);
   EXPECT_FALSE(page()->isVisible());
+}
+
+// Another survey stands for the demo, which takes longer to make than a test may.
+TEST_F(StartPage, TheDemoAndItsTutorialAreAClickAway) {
+  const std::filesystem::path cache = TestSurvey::easy().fresh();
+  const std::filesystem::path made = cache / "sonar-explorer" / "demo-test";
+  std::filesystem::create_directories(made);
+  std::filesystem::copy(TestSurvey::easy().folder(), made, std::filesystem::copy_options::recursive);
+  std::filesystem::create_directories(made / "truth" / "complete");
+  const QByteArray before = qgetenv("XDG_CACHE_HOME");
+  qputenv("XDG_CACHE_HOME", cache.c_str());
+  auto* demo = window_->findChild<QPushButton*>("start.file.demo");
+  ASSERT_TRUE(demo->isVisible());
+  click_on(demo, {0.5 * demo->width(), 0.5 * demo->height()});
+  EXPECT_TRUE(document().staged());
+  EXPECT_EQ(document().paths(), std::vector{made});
+  EXPECT_FALSE(page()->isVisible());
+  std::filesystem::path shown;
+  app_->dialogs.show_page = [&shown](const std::filesystem::path& page) {
+    shown = page;
+    return true;
+  };
+  find_action(*window_, "help.tutorial")->trigger();
+  settle();
+  EXPECT_EQ(shown.filename(), "tutorial.md");
+  EXPECT_EQ(document().paths(), std::vector{made});
+  before.isNull() ? qunsetenv("XDG_CACHE_HOME") : qputenv("XDG_CACHE_HOME", before);
 }
 
 TEST_F(StartPage, IsUsedByKeysAlone) {

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <QCheckBox>
+#include <QDoubleSpinBox>
+
 #include "session/timelines/timeline_model.h"
 #include "window_at_work.h"
 
@@ -61,6 +64,37 @@ TEST_F(Timeline, AJumpTakesEveryViewWithItAsStepsDo) {
   click("survey_timeline", {survey.places()->x_of(time_of(2)), plot.y + 0.5 * plot.height});
   EXPECT_EQ(document().staged()->ping_index, 2);
   EXPECT_EQ(pictures(), at_two);
+}
+
+TEST_F(Timeline, TheWheelZoomsAMiddleDragMovesAndADoubleClickShowsAll) {
+  const PixelPoint at = place_of(6);
+  const double apart = place_of(7).x - at.x;
+  wheel(kDock, at, 2);
+  ASSERT_TRUE(timeline().zoomed());
+  EXPECT_NEAR(place_of(6).x, at.x, 1.0) << "what is pointed at stays";
+  EXPECT_GT(place_of(7).x - place_of(6).x, 1.3 * apart);
+  middle_drag(kDock, at, {at.x + 15.0, at.y});
+  EXPECT_NEAR(place_of(6).x, at.x + 15.0, 1.0);
+  EXPECT_EQ(document().ping(), 0) << "moving it looks at no other ping";
+  double_click(kDock, place_of(6));
+  EXPECT_FALSE(timeline().zoomed());
+  EXPECT_NEAR(place_of(6).x, at.x, 1.0);
+}
+
+TEST_F(Timeline, SchoolsLieOverItsEchoesAndTheControlsGiveItLimitsOfItsOwn) {
+  const Target target = look_at_school();
+  const Image bare = timeline().image();
+  double_click("top_slice", place_in("top_slice", target.voxel));
+  EXPECT_NE(timeline().image(), bare) << "the school's line";
+  const Image with = timeline().image();
+  const Image slice = app_->picture("top_slice")->image();
+  QTest::keyClick(&control<QCheckBox>("Timelines", "own_limits"), Qt::Key_Space);
+  ASSERT_TRUE(workspace().timelines.values().own_limits);
+  QTest::keyClick(&control<QDoubleSpinBox>("Timelines", "low_db.box"), Qt::Key_PageDown);
+  settle();
+  EXPECT_LT(workspace().timelines.values().low_db, workspace().display.values().scale.low_db);
+  EXPECT_NE(timeline().image(), with);
+  EXPECT_EQ(app_->picture("top_slice")->image(), slice) << "the slices keep theirs";
 }
 
 TEST_F(Timeline, AnEventStandsAtThePingThatWasClicked) {

@@ -5,7 +5,6 @@
 
 #include <QAction>
 #include <QComboBox>
-#include <QToolButton>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -49,11 +48,7 @@ TEST_F(VolumeInTheWindow, ADragTurnsItAndTheWheelComesNearer) {
   const Camera turned = model().shown()->view.camera;
   EXPECT_GT(norm(turned.eye - first.eye), 10.0);
   EXPECT_NEAR(norm(turned.eye - turned.target), norm(first.eye - first.target), 1e-6);
-  QWheelEvent wheel(view("volume")->mapFromGlobal(view("volume")->mapToGlobal(QPoint(int(at.x), int(at.y)))),
-                    view("volume")->mapToGlobal(QPoint(int(at.x), int(at.y))), {}, {0, 240}, Qt::NoButton,
-                    Qt::NoModifier, Qt::NoScrollPhase, false);
-  QApplication::sendEvent(view("volume"), &wheel);
-  settle();
+  wheel("volume", at, 2);
   const Camera nearer = model().shown()->view.camera;
   EXPECT_LT(norm(nearer.eye - nearer.target), norm(turned.eye - turned.target));
   find_action(*window_, "volume.overview")->trigger();
@@ -88,20 +83,13 @@ TEST_F(VolumeInTheWindow, WhatDrewItIsTold) {
 
 // The panel's own control, by hand: unfolded by a click, changed by a key. Then a key moves the slice, and the cut with it.
 TEST_F(VolumeInTheWindow, IsCutOpenFromThePanel) {
-  auto* clip = window_->findChild<QComboBox*>("clip");
-  ASSERT_NE(clip, nullptr);
-  for (auto* fold : window_->findChildren<QToolButton*>()) {
-    if (fold->text() == "Volume" && !clip->isVisible()) QTest::mouseClick(fold, Qt::LeftButton);
-  }
-  settle();
-  ASSERT_TRUE(clip->isVisible());
+  QComboBox& clip = control<QComboBox>("Volume", "clip");
   const auto known = [&] {
     const auto all = model().shown()->volume->sv.all();
     return std::count_if(all.begin(), all.end(), [](std::int16_t count) { return count != kNoData; });
   };
   const auto whole = known();
-  clip->setFocus(Qt::TabFocusReason);
-  QTest::keyClick(clip, Qt::Key_Down);
+  QTest::keyClick(&clip, Qt::Key_Down);
   settle();
   ASSERT_EQ(workspace().volume.values().clip, VolumeClip::top_slice);
   const auto cut = known();
@@ -112,8 +100,8 @@ TEST_F(VolumeInTheWindow, IsCutOpenFromThePanel) {
   key(Qt::Key_Up);
   ASSERT_GT(workspace().slices().fan, fan);
   EXPECT_GT(known(), cut) << "the eye is above: a fan more is left";
-  clip->setFocus(Qt::TabFocusReason);
-  QTest::keyClick(clip, Qt::Key_Up);
+  clip.setFocus(Qt::TabFocusReason);
+  QTest::keyClick(&clip, Qt::Key_Up);
   settle();
   EXPECT_EQ(known(), whole);
 }

@@ -2,7 +2,10 @@
 #include "window_at_work.h"
 
 #include <QScreen>
+#include <QToolButton>
+#include <QWheelEvent>
 #include <algorithm>
+#include <set>
 
 #include "pipeline/stages/observe.h"
 
@@ -17,6 +20,7 @@ void WindowAtWork::open() {
   pump_ = std::make_unique<QueuePump>([this] { gate_.pass(); });
   DocumentOptions options = TestSurvey::options(journal_);
   options.recipe = recipe_;
+  options.cache.folder = cache_;
   app_ = std::make_unique<AppModel>(pump_->queue(), std::move(options));
   app_->preferences = preferences_;
   // A volume at rest is the mean of many pictures; one is enough for whoever does not look at it.
@@ -45,6 +49,15 @@ void WindowAtWork::keep_picture(const std::string& name) {
   window_->grab().save(folder + "/" + QString::fromStdString(name) + ".png");
 }
 
+bool WindowAtWork::shows_something(const QPixmap& picture) {
+  const QImage image = picture.toImage();
+  std::set<QRgb> colours;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) colours.insert(image.pixel(x, y));
+  }
+  return colours.size() > 20;
+}
+
 void WindowAtWork::settle_jobs() {
   for (int quiet = 0; quiet < 3; ++quiet) {
     QApplication::sendPostedEvents();
@@ -62,6 +75,21 @@ void WindowAtWork::settle() {
     while (app_->animations.running()) QApplication::processEvents(QEventLoop::WaitForMoreEvents);
     settle_jobs();
   } while (app_->animations.running());
+}
+
+void WindowAtWork::wheel(const std::string& dock, PixelPoint at, int steps, Qt::KeyboardModifiers keys) {
+  QWidget* on = view(dock);
+  const QPointF place(at.x, at.y);
+  QWheelEvent event(place, on->mapToGlobal(place), {}, {0, 120 * steps}, Qt::NoButton, keys, Qt::NoScrollPhase, false);
+  QApplication::sendEvent(on, &event);
+  settle();
+}
+
+void WindowAtWork::unfold(const char* section) {
+  for (auto* fold : view("controls")->findChildren<QToolButton*>()) {
+    if (fold->text() == section && !fold->isChecked()) QTest::mouseClick(fold, Qt::LeftButton);
+  }
+  settle();
 }
 
 PixelPoint WindowAtWork::place_in(const std::string& dock, const Voxel& voxel) {

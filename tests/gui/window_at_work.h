@@ -5,9 +5,11 @@
 
 #include <QApplication>
 #include <QDockWidget>
+#include <QPixmap>
 #include <QTest>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "gate.h"
@@ -35,6 +37,8 @@ class WindowAtWork : public testing::Test {
   void close();
   /// The window as it is now, in the folder that SONAR_GUI_PICTURES names; nothing where it names none.
   void keep_picture(const std::string& name);
+  /// Whether a picture has more than a few colours: it is of something.
+  [[nodiscard]] static bool shows_something(const QPixmap& picture);
 
   [[nodiscard]] Document& document() { return app_->workspace.document; }
   [[nodiscard]] Workspace& workspace() { return app_->workspace; }
@@ -92,10 +96,28 @@ class WindowAtWork : public testing::Test {
     move(dock, to);
     release_on(view(dock), to, keys);
   }
+  /// Held with the middle button: what is zoomed is moved.
+  void middle_drag(const std::string& dock, PixelPoint from, PixelPoint to) {
+    QTest::mousePress(window_->windowHandle(), Qt::MiddleButton, {}, in_window(view(dock), from));
+    move(dock, to);
+    QTest::mouseRelease(window_->windowHandle(), Qt::MiddleButton, {}, in_window(view(dock), to));
+    settle();
+  }
+  void wheel(const std::string& dock, PixelPoint at, int steps, Qt::KeyboardModifiers keys = {});
   void key(Qt::Key key, Qt::KeyboardModifiers keys = {}) {
     QTest::keyClick(window_->windowHandle(), key, keys);
     settle();
   }
+  /// A control of the panel; its section is unfolded by a click where it is folded.
+  template <class Control>
+  Control& control(const char* section, const char* name) {
+    unfold(section);
+    auto* found = view("controls")->findChild<Control*>(name);
+    if (found == nullptr || !found->isVisible()) throw std::runtime_error(std::string("no control is seen: ") + name);
+    found->setFocus(Qt::TabFocusReason);
+    return *found;
+  }
+  void unfold(const char* section);
   void type(const std::string& text) {
     for (const char letter : text) QTest::keyClick(window_->windowHandle(), letter);
     settle();
@@ -115,7 +137,8 @@ class WindowAtWork : public testing::Test {
 
   std::filesystem::path survey_ = TestSurvey::easy().folder();  ///< empty = none is opened
   std::filesystem::path journal_ = TestSurvey::easy().fresh();
-  Recipe recipe_;  ///< that the window works under
+  std::filesystem::path cache_;  ///< of the user; empty = there is none
+  Recipe recipe_;                ///< that the window works under
   Preferences preferences_;
   Gate gate_;
   std::unique_ptr<QueuePump> pump_;

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "pipeline/stages/voxel_statistics.h"
-#include "pipeline/survey/test_ek60.h"
 #include "publish/picture.h"
+#include "session/echograms/test_with_ek60.h"
 #include "session/test_survey.h"
 
 namespace sonar {
@@ -279,24 +279,6 @@ TEST_F(Echogram, BeamsThatNobodyLooksAtAreLetGoInTime) {
   EXPECT_TRUE(kept(names.back()) && kept(names[6]));
   EXPECT_FALSE(kept(names[0]));
   EXPECT_LE(std::count_if(names.begin(), names.end(), kept), 6);
-}
-
-/// A sounder with 38 and 120 kHz over the time of the simulated survey's first observation.
-/// fans  that survey beside it
-std::filesystem::path with_ek60(bool fans) {
-  const std::filesystem::path folder = TestSurvey::easy().fresh() / "both";
-  std::filesystem::create_directories(folder);
-  Work work;
-  const std::vector<std::filesystem::path> easy{TestSurvey::easy().folder()};
-  const auto survey = open_survey(easy, {}, {}, IndexCache{}, work);
-  const ObservationFiles& first = survey->observations.front();
-  if (fans) {
-    for (const auto& file : survey->files) {
-      std::filesystem::copy_file(file.path, folder / file.path.filename());
-    }
-  }
-  test::write_ek60(folder / "ek60.raw", survey->ping_time(first, 0));
-  return folder;
 }
 
 class EchogramWithEk60 : public Echogram {

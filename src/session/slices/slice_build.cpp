@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/slices/slice_build.h"
 
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -8,6 +12,8 @@
 #include "pipeline/stages/weak_samples.h"
 #include "publish/sample_looks.h"
 #include "session/screen_theme.h"
+#include "view/label_room.h"
+#include "view/shapes.h"
 #include "view/slices/slice_cuts.h"
 
 namespace sonar {
@@ -40,28 +46,68 @@ View3<const SampleFlags> marked_flags(const SliceWish& wish, double below_db) {
   return View3<const SampleFlags>(room.flags.view());
 }
 
-/// The selected school's name beside its first voxel of the slice.
-void name_selected(SlicePicture& picture, const SliceWish& wish, const Theme& theme) {
+/// What a slice shows of a mask, in the picture; empty where it shows nothing.
+std::optional<PixelRect> shown_of(const SlicePicture& picture, const SliceWish& wish, const PingMask& mask) {
   const Sector& sector = wish.observation->sector();
+  const bool along_beams = !rows_of(wish.view.slice, sector).empty();
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  PixelPoint low{kFar, kFar};
+  PixelPoint high{-kFar, -kFar};
+  for (const Run& run : mask.runs) {
+    auto voxel = farthest_cut(sector, wish.view.slice, run);
+    for (int end = 0; voxel && end < (along_beams ? 2 : 1); ++end) {
+      if (const auto at = picture.place_of(*voxel)) {
+        low = {std::min(low.x, at->x), std::min(low.y, at->y)};
+        high = {std::max(high.x, at->x), std::max(high.y, at->y)};
+      }
+      voxel->sample = run.first_sample;
+    }
+  }
+  const PixelRect& plot = picture.plot.place;  // zoomed, some of it lies beyond
+  low = {std::max(low.x, plot.x), std::max(low.y, plot.y)};
+  high = {std::min(high.x, plot.x + plot.width), std::min(high.y, plot.y + plot.height)};
+  if (low.x > high.x || low.y > high.y) return std::nullopt;
+  return PixelRect{low.x, low.y, high.x - low.x, high.y - low.y};
+}
+
+/// What no name may lie on: other words, and the ship of slices along beams, which stands where these begin.
+void take_what_is_there(LabelRoom& room, const SlicePicture& picture, const SliceWish& wish, const Theme& theme) {
+  for (const auto& item : picture.frame.items) {
+    const auto* words = std::get_if<TextItem>(&item);
+    if (words != nullptr && inside(picture.plot.place, words->at)) room.take(LabelRoom::box_of(*words));
+  }
+  if (rows_of(wish.view.slice, wish.observation->sector()).empty()) return;
+  const PixelPoint ship = picture.map->pixel_of(0.0, 0.0);
+  const double size = 2.4 * theme.text_px;
+  room.take({picture.plot.place.x + ship.x - 0.5 * size, picture.plot.place.y + ship.y - 0.5 * size, size, size});
+}
+
+/// The selected school's name beside what the slice shows of it; nothing where there is no room for it.
+void name_selected(SlicePicture& picture, const SliceWish& wish, const Theme& theme) {
   for (const SchoolLayer& school : wish.layers) {
     if (!school.selected || !school.layer.mask) continue;
-    for (const Run& run : school.layer.mask->runs) {
-      const auto voxel = farthest_cut(sector, wish.view.slice, run);
-      if (!voxel) continue;
-      const auto at = picture.place_of(*voxel);
-      if (!at) return;
-      picture.frame.items.emplace_back(ClipItem{picture.plot.place});
-      picture.frame.items.emplace_back(TextItem{{at->x + 0.5 * theme.text_px, at->y},
-                                                school.title,
-                                                theme.text_px,
-                                                theme.text,
-                                                TextAnchor::left,
-                                                0.0,
-                                                true,
-                                                theme.halo});
-      picture.frame.items.emplace_back(ClipItem{});
-      return;
-    }
+    const auto shown = shown_of(picture, wish, *school.layer.mask);
+    if (!shown) continue;
+    LabelRoom room(picture.plot.place);
+    take_what_is_there(room, picture, wish, theme);
+    room.take(*shown);
+    TextItem name = text_item({}, school.title, theme.text_px, theme.text, TextAnchor::centre);
+    name.bold = true;
+    name.halo = theme.halo;
+    const PixelRect box = LabelRoom::box_of(name);
+    const PixelPoint middle{shown->x + 0.5 * shown->width, shown->y + 0.5 * shown->height};
+    const double aside = 0.5 * (shown->width + box.width) + 0.4 * theme.text_px;
+    const double over = 0.5 * (shown->height + box.height) + 0.2 * theme.text_px;
+    const std::array<PixelPoint, 8> places{{{middle.x + aside, middle.y},
+                                            {middle.x - aside, middle.y},
+                                            {middle.x, middle.y + over},
+                                            {middle.x, middle.y - over},
+                                            {middle.x + aside, middle.y + over},
+                                            {middle.x + aside, middle.y - over},
+                                            {middle.x - aside, middle.y + over},
+                                            {middle.x - aside, middle.y - over}}};
+    if (auto placed = room.place(name, places)) picture.frame.items.emplace_back(std::move(*placed));
+    return;
   }
 }
 

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <optional>
+#include <vector>
 
 #include "base/units.h"
 #include "pipeline/stages/weak_samples.h"
@@ -12,6 +14,7 @@
 #include "publish/sample_looks.h"
 #include "session/slices/school_layers.h"
 #include "session/slices/test_slices.h"
+#include "view/label_room.h"
 
 namespace sonar {
 namespace {
@@ -282,6 +285,50 @@ TEST(FuzzyArea, KeepsWhatIsSurer) {
   const auto mask = std::make_shared<const PingMask>(PingMask{{{3, 10, 4}, {4, 7, 1}}, {100, 30, 200, 51, 20}});
   EXPECT_EQ(fuzzy_area(mask, 0.0), mask);
   EXPECT_EQ(*fuzzy_area(mask, 0.2), (PingMask{{{3, 10, 1}, {3, 12, 1}}, {100, 200}}));  // 51 / 255 is not above 0.2
+}
+
+// At any size: whole within the axes, off the school, off the ship and off all other words.
+TEST_F(SlicesAtWork, TheSelectedSchoolsNameIsWholeAndLiesOnNothing) {
+  app_.click(app_.top(), bright());
+  app_.settle();
+  const PingMask mask = in_ping(app_.document().state().schools.front()->masks, app_.document().ping())->mask;
+  const int beams = app_.document().shown()->sector().beams();
+  int named = 0;
+  for (const PixelSize size : {PixelSize{340, 230}, {360, 270}, {480, 360}, {900, 700}}) {
+    for (SliceModel* slice : {&app_.top(), &app_.side()}) {
+      slice->resize(size, 1.0);
+      app_.settle();
+      const SlicePicture& picture = *slice->picture();
+      std::vector<PixelRect> words;
+      std::optional<PixelRect> name;
+      for (const auto& item : picture.frame.items) {
+        const auto* text = std::get_if<TextItem>(&item);
+        if (text == nullptr || text->turned_deg != 0.0) continue;  // an axis' name stands beside the axes
+        (text->text == "school 1" ? name.emplace() : words.emplace_back()) = LabelRoom::box_of(*text);
+      }
+      if (!name) continue;
+      ++named;
+      const PixelRect& plot = picture.plot.place;
+      EXPECT_TRUE(inside(plot, {name->x, name->y})) << size.width;
+      EXPECT_TRUE(inside(plot, {name->x + name->width, name->y + name->height})) << size.width;
+      const PixelPoint ship = picture.map->pixel_of(0.0, 0.0);
+      EXPECT_FALSE(inside(*name, {plot.x + ship.x, plot.y + ship.y})) << size.width;
+      for (const PixelRect& other : words) {
+        const bool apart = other.x >= name->x + name->width || name->x >= other.x + other.width ||
+                           other.y >= name->y + name->height || name->y >= other.y + other.height;
+        EXPECT_TRUE(apart) << size.width << " at " << other.x << ", " << other.y;
+      }
+      for (const sonar::Run& run : mask.runs) {
+        for (int sample = run.first_sample; sample < run.end(); ++sample) {
+          const Voxel voxel{run.row / beams, run.row % beams, sample};
+          const bool shown = slice == &app_.top() ? voxel.fan == bright().fan : voxel.beam == bright().beam;
+          const auto at = picture.place_of(voxel);
+          ASSERT_FALSE(shown && at && inside(*name, *at)) << size.width;
+        }
+      }
+    }
+  }
+  EXPECT_GE(named, 7) << "there is room for it almost always";
 }
 
 TEST_F(SlicesAtWork, TheOutlineTellsWhatAHumanSaid) {

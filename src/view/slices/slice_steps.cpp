@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "base/time.h"
 #include "view/colour_bar.h"
@@ -23,6 +24,8 @@ constexpr double kSmall = 0.9;         ///< its text, of the theme's
 constexpr double kGap_em = 0.7;        ///< between pictures
 constexpr double kSign = 0.1;          ///< size of signs in the picture of a step, of its height
 constexpr double kLeastPlot_em = 6.0;  ///< height of a picture, before lines of words are left out
+constexpr double kWordsFrom_em =
+    7.0;  ///< so narrow, a picture has its number alone: of words only a letter would be left
 constexpr double kLeast_px = 12.0;
 constexpr double kRowShare = 0.24;  ///< of the height, for the row of all steps below two that are compared
 
@@ -73,6 +76,7 @@ class Page {
       return plot_of(cells(area, data_.steps.size(), aspect(), words, kGap_em * em()).front(), words).height;
     };
     while (lines > 0 && height(lines) < kLeastPlot_em * em()) --lines;
+    if (narrow(cells(area, data_.steps.size(), aspect(), words_px(lines), kGap_em * em()).front())) lines = 0;
     return add_steps(area, lines);
   }
 
@@ -94,6 +98,8 @@ class Page {
     return std::round((kName_em + kWords_em * static_cast<double>(lines) + 0.2) * em());
   }
 
+  [[nodiscard]] bool narrow(const PixelRect& cell) const { return cell.width < kWordsFrom_em * em(); }
+
   /// Where a cell's slice lies below its words.
   [[nodiscard]] static PixelRect plot_of(const PixelRect& cell, double words_px) {
     return {cell.x, cell.y + words_px, cell.width, cell.height - words_px};
@@ -112,7 +118,8 @@ class Page {
     if (auto mapped = map_onto(plot_of(places.front(), words), out_.map); !mapped) return mapped;
     for (std::size_t i = 0; i < places.size(); ++i) {
       const SliceStepPlace place{Shows::step, i, places[i], plot_of(places[i], words)};
-      add_words(place, fmt::format("{}  {}", i + 1, data_.steps[i].name), data_.steps[i], lines);
+      const std::string number = std::to_string(i + 1);
+      add_words(place, narrow(places[i]) ? number : number + "  " + data_.steps[i].name, data_.steps[i], lines);
       if (auto drawn = add_step(place, i > 0 ? i - 1 : 0, *out_.map); !drawn) return drawn;
       out_.places.push_back(place);
     }

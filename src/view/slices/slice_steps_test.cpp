@@ -186,6 +186,27 @@ TEST_F(ThreeSteps, AreDrawnInSmallDocksAndManyOfThemToo) {
 }
 
 // By hand: 8 fans of 7 beams of 41 samples.
+// Of a name and its words either more than a letter is left or nothing: a number is enough, and the pointer tells the rest.
+TEST_F(ThreeSteps, InANarrowDockNumbersStandAlone) {
+  while (data_.steps.size() < 12) data_.steps.push_back(data_.steps[2]);
+  bool names = false;
+  bool numbers = false;
+  for (const PixelSize size : {PixelSize{340, 250}, PixelSize{400, 280}, PixelSize{1200, 800}}) {
+    const auto made = slice_steps(sector_, data_, ping_, kTop, style_, light_theme(size), size);
+    ASSERT_TRUE(made);
+    for (const auto& item : made->frame.items) {
+      const auto* text = std::get_if<TextItem>(&item);
+      if (text == nullptr) continue;
+      names = names || text->text == "3  Filter";
+      numbers = numbers || text->text == "3";
+      const bool cut = text->text.ends_with("\u2026");
+      const double width_em = text_width_px(text->text.c_str(), text->size_px) / text->size_px;
+      EXPECT_TRUE(!cut || width_em > 4.0) << text->text;
+    }
+  }
+  EXPECT_TRUE(names && numbers);
+}
+
 TEST(SamplesIn, AreThoseOfAFanABeamOrARange) {
   const Sector sector = hand_sector();
   const auto top = samples_in(sector, TopSlice{4});
