@@ -99,9 +99,10 @@ class MasksMet {
 
   /// Up to u: all layers that touch the voxels round both ends, the lowest number first. What their cores add is told as if
   /// it lay evenly in `length`; lay(opacity, colour, place) takes surfaces.
+  /// at_sample  surfaces count where a sample, or the end of a ray at one, has reached them
   template <class Lay>
-  HWY_NOINLINE void meet(const TraceJob& job, const Rays& ray, M lanes, V u, V length, Rgb& emission, V& extinction,
-                         const Lay& lay) {
+  HWY_NOINLINE void meet(const TraceJob& job, const Rays& ray, M lanes, V u, bool at_sample, V length, Rgb& emission,
+                         V& extinction, const Lay& lay) {
     const TraceView& view = job.view;
     const V per_length = hn::Div(set(view.core_extinction), hn::Max(length, set(1e-6F)));  // 0 of rays that stand still
     const MaskCorners before = mask_corners(job.grid, ray, to_);
@@ -113,7 +114,7 @@ class MasksMet {
       const Piece piece{layer, u, confidence_at(before, layer), confidence_at(here, layer)};
       const auto& c = view.mask_rgb[layer - 1];
       const Rgb colour{set(c[0]), set(c[1]), set(c[2])};
-      meet_surface(job, ray, lanes, piece, colour, lay);
+      if (at_sample) meet_surface(job, ray, lanes, piece, colour, lay);
       if (view.core_extinction <= 0.0F) continue;
       const V own = hn::Mul(in_core(job, ray, lanes, piece), per_length);
       emission.r = hn::MulAdd(own, colour.r, emission.r);
@@ -134,7 +135,7 @@ class MasksMet {
   template <class Lay>
   void meet_surface(const TraceJob& job, const Rays& ray, M lanes, const Piece& piece, Rgb rgb, const Lay& lay) {
     const float level = job.view.fuzzy_at;
-    const M reached = hn::And(lanes, hn::Ge(hn::Max(piece.first, piece.last), set(level)));
+    const M reached = hn::And(lanes, hn::Ge(piece.last, set(level)));
     const std::uint32_t fresh = bits(reached) & ~surfaces_[piece.layer];
     if (fresh == 0) return;
     surfaces_[piece.layer] |= fresh;

@@ -199,7 +199,7 @@ class Packet {
     if (view_.masked) {
       const M here = hn::And(lanes, is_set<kMaskBit>(word));
       const M near = hn::Or(here, hn::And(lanes, masks_.near()));
-      if (any(near)) meet_masks(near, until, length, emission, extinction);
+      if (any(near)) meet_masks(near, until, true, length, emission, extinction);
       masks_.pass(lanes, u, here);
     }
     if (any(hits)) {
@@ -277,8 +277,8 @@ class Packet {
     lay(hn::IfThenElseZero(lanes, set(1.0F)), rgb, u);
   }
 
-  void meet_masks(M lanes, V u, V length, Rgb& emission, V& extinction) {
-    masks_.meet(job_, ray_, lanes, u, length, emission, extinction,
+  void meet_masks(M lanes, V u, bool at_sample, V length, Rgb& emission, V& extinction) {
+    masks_.meet(job_, ray_, lanes, u, at_sample, length, emission, extinction,
                 [this](V opacity, const Rgb& rgb, V at) { lay(opacity, rgb, at); });
   }
 
@@ -288,7 +288,7 @@ class Packet {
     if (!any(lanes)) return;
     Rgb emission{zero(), zero(), zero()};
     V extinction = zero();
-    meet_masks(lanes, u, set(1.0F), emission, extinction);
+    meet_masks(lanes, u, false, set(1.0F), emission, extinction);
     lay_sum(lanes, emission, extinction, set(1.0F), u);
     masks_.pass(lanes, u, none());
   }

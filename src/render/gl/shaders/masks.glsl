@@ -86,8 +86,8 @@ float in_core(uint layer, float first, float last, float t) {
   return ends ? t - at : at - masks_to;
 }
 
-// All up to t: lays surfaces over what lies behind; returns emission and extinction of the cores, times metres.
-vec4 meet_masks(float t) {
+// Lays surfaces up to t over what lies behind; returns emission and extinction of the cores up to `end`, times metres.
+vec4 meet_masks(float t, float end) {
   MaskCorners before = mask_corners(masks_to);
   MaskCorners here = mask_corners(t);
   float level = max(ray.mask.x, 0.5 / 255.0);
@@ -102,12 +102,14 @@ vec4 meet_masks(float t) {
     vec3 colour = texelFetch(mask_colours, ivec2(int(layer) - 1, 0), 0).rgb;
     uint bit = 1u << (layer & 31u);
     uint word = layer >> 5;
-    if ((surface_met[word] & bit) == 0u && max(first, last) >= level) {
+    if ((surface_met[word] & bit) == 0u && last >= level) {
       surface_met[word] |= bit;
       float at = first >= level ? masks_to : mask_crossing(layer, masks_to, t, level, true);
       lay_over(surface_colour(colour, layer, at, level), ray.mask.z, at);
     }
-    if (ray.mask.w > 0.0) core += ray.mask.w * in_core(layer, first, last, t) * vec4(colour, 1.0);
+    if (ray.mask.w <= 0.0) continue;
+    if (end > t) last = confidence_of(mask_corners(end), layer);
+    core += ray.mask.w * in_core(layer, first, last, end) * vec4(colour, 1.0);
   }
   return core;
 }

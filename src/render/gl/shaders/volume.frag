@@ -43,7 +43,7 @@ void take_sample(float t, float length_m, uint flags, float before, float masks_
 #endif
 #if MASKS
   bool here = (flags & MASKED) != 0u;
-  if (here || near_masks) sum = meet_masks(masks_end) / length_m;
+  if (here || near_masks) sum = meet_masks(t, masks_end) / length_m;
   near_masks = here;
   masks_to = masks_end;
 #endif
@@ -75,7 +75,8 @@ void end_hit() {
     hit_low = above ? hit_low : middle;
   }
 #if MASKS
-  if (near_masks) lay(meet_masks(max(hit_high, masks_to)), 1.0, hit_high);
+  float before = max(hit_high, masks_to);
+  if (near_masks) lay(meet_masks(before, before), 1.0, hit_high);
 #endif
   vec3 p = base + hit_high * dir;
   vec3 g = index_of(p, length(p));
