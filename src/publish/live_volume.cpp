@@ -21,6 +21,8 @@
 namespace sonar {
 namespace {
 
+using Staged = std::shared_ptr<const StagedPing>;
+
 /// Of a pixel, until the first picture tells: a slow processor's, so that nobody waits for it.
 constexpr double kFirstPace_s = 1e-6;
 /// Silhouettes are two pictures of the masks alone, each a twentieth of what the data take; at a quarter of the
@@ -109,7 +111,8 @@ struct LiveVolume::State {
   std::shared_ptr<const std::vector<SceneLine>> trail_lines;  ///< as drawn last
   ChartSeabed chart{kChartSpare, kChartNodes};
   std::string chart_notice;
-  std::shared_ptr<const std::vector<int>> shadow_from;  ///< of `drawn`; null = not shown
+  std::shared_ptr<const std::vector<int>> shadow_from;  ///< of `drawn`'s masks in `heard`; null = not shown
+  Staged heard;
 
   void let_go() {
     refinement.reset();
@@ -124,6 +127,7 @@ struct LiveVolume::State {
     trails = {};
     trail_lines.reset();
     shadow_from.reset();
+    heard.reset();
     chart = ChartSeabed{kChartSpare, kChartNodes};
   }
 
@@ -131,9 +135,10 @@ struct LiveVolume::State {
   Result<void> set(const LiveVolumeInput& input, const VolumeCut& wanted_cut, bool outlined);
   VolumeFigure figure_of(const LiveVolumeInput& input);
   void take_trails(VolumeFigure& figure, const LiveVolumeInput& input, const VolumePlace& place);
-  void take_shadow(VolumeFigure& figure, const LiveVolumeInput& input);
-  Result<void> draw(const LiveVolumeInput& input, const VolumePlace& place, const CancelToken& token, Work& better,
-                    const Show& show);
+  void take_shadow(VolumeFigure& figure, const LiveVolumeInput& input, const Staged& nearer);
+  /// nearer  the ping whose masks these are: as heard, not as interpolated
+  Result<void> draw(const LiveVolumeInput& input, const Staged& nearer, const VolumePlace& place,
+                    const CancelToken& token, Work& better, const Show& show);
   void draw_context(const VolumeFigure& figure, const LiveVolumeInput& input, const VolumePlace& place,
                     const Camera& camera);
 };
@@ -243,26 +248,27 @@ void LiveVolume::State::take_trails(VolumeFigure& figure, const LiveVolumeInput&
   figure.schools_tracked = !input.trails.schools.empty();
 }
 
-/// Worked out again where another picture is about others: the eye alone moves more often. Between pings there is none.
-void LiveVolume::State::take_shadow(VolumeFigure& figure, const LiveVolumeInput& input) {
+/// Worked out again where another picture is about others: the eye alone moves more often. Between pings it is that of the
+/// nearer one, whose schools are drawn.
+void LiveVolume::State::take_shadow(VolumeFigure& figure, const LiveVolumeInput& input, const Staged& nearer) {
   const DisplayParams& display = input.options.display;
-  const bool wanted = display.shadow && !input.next;
-  const bool same = shadow_from && drawn.staged == input.staged && drawn.sector == input.sector &&
+  const bool same = shadow_from && heard == nearer && drawn.sector == input.sector &&
                     drawn.options.display.shadow_db == display.shadow_db && same_masks(drawn.masks, input.masks) &&
                     drawn.tried == input.tried;
-  if (!wanted) {
+  if (!display.shadow) {
     shadow_from.reset();
   } else if (!same) {
     // What is only tried casts no shadow.
     const std::span whole(input.masks.data(), input.masks.size() - std::min(input.tried, input.masks.size()));
     shadow_from = std::make_shared<const std::vector<int>>(
-        shadow_of_schools(*input.staged, *input.sector, whole, input.extinction, display));
+        shadow_of_schools(*nearer, *input.sector, whole, input.extinction, display));
+    heard = nearer;
   }
   figure.shadow_from = shadow_from;
 }
 
-Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumePlace& place, const CancelToken& token,
-                                     Work& better, const Show& show) {
+Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const Staged& nearer, const VolumePlace& place,
+                                     const CancelToken& token, Work& better, const Show& show) {
   const bool other_sector = drawn.sector != input.sector;
   if (other_sector) {
     context_key.reset();
@@ -270,7 +276,7 @@ Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const VolumeP
   }
   VolumeFigure figure = figure_of(input);
   take_trails(figure, input, place);
-  take_shadow(figure, input);
+  take_shadow(figure, input, nearer);
   const auto camera = volume_camera(*input.sector, input.options, place.rays);
   if (!camera) return pass_on(camera);
   const VolumeCut wanted_cut = volume_cut(*input.sector, input.options, *camera, input.fan, input.beam);
@@ -326,11 +332,12 @@ LiveVolume::LiveVolume(MakeRenderer make) : state_(std::make_unique<State>()) {
 LiveVolume::~LiveVolume() { state_->let_go(); }
 
 Result<void> LiveVolume::draw(const LiveVolumeInput& asked, const CancelToken& token, Work& better, const Show& show) {
+  const Staged nearer = asked.next && !(asked.towards_next < 0.5) ? asked.next : asked.staged;
   const LiveVolumeInput input = asked.next ? with_between(asked, state_->first) : asked;
   const auto place = volume_place(input.options, input.scale);
   if (!place) return pass_on(place);
   if (auto begun = state_->begin(input.options.volume.renderer); !begun) return begun;
-  auto done = state_->draw(input, *place, token, better, show);
+  auto done = state_->draw(input, nearer, *place, token, better, show);
   if (done || done.error().code == ErrorCode::cancelled || done.error().code == ErrorCode::bad_parameter) return done;
   if (state_->offscreen->context == nullptr) return done;
   // A driver that gives up in the middle is not asked again.
@@ -339,7 +346,7 @@ Result<void> LiveVolume::draw(const LiveVolumeInput& asked, const CancelToken& t
   if (!processor) return pass_on(processor);
   state_->offscreen = std::move(*processor);
   state_->notice = "the processor draws the volume: " + to_line(done.error());
-  return state_->draw(input, *place, token, better, show);
+  return state_->draw(input, nearer, *place, token, better, show);
 }
 
 void LiveVolume::let_go() { state_->let_go(); }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -105,6 +106,38 @@ std::vector<std::string> words_of(LiveVolume& live, const LiveVolumeInput& input
     }
   }));
   return out;
+}
+
+// Nothing is measured on what is interpolated: between pings the shadow is that of the nearer one, whose schools are drawn.
+TEST(LiveVolume, BetweenPingsTheShadowIsTheNearerOnes) {
+  LiveVolumeInput first = block_of_echo();
+  first.options.volume.data = false;  // so that nothing but the shadow differs
+  first.options.volume.context = true;
+  first.options.display.shadow = true;
+  first.options.display.shadow_db = 1.0;
+  auto quiet = std::make_shared<StagedPing>(*first.staged);
+  quiet->calibration = std::make_shared<const Array3<std::int16_t>>(quiet->sv.counts.shape(), std::int16_t{0});
+  quiet->background_db.assign(quiet->sv.counts.shape().rows(), std::nan(""));
+  first.staged = quiet;
+  LiveVolumeInput second = first;
+  auto louder = std::make_shared<StagedPing>(*quiet);
+  for (auto& count : louder->sv.counts.all()) {
+    if (count != kMinCount) count = slice_example::LitVolume::counts(-24.0);
+  }
+  louder->filtered = std::make_shared<Volume>(louder->sv);
+  second.staged = louder;
+  LiveVolume live;
+  const Image of_first = settled(live, first);
+  const Image of_second = settled(live, second);
+  ASSERT_NE(of_first, of_second) << "a louder school's shadow begins earlier";
+  LiveVolumeInput between = first;
+  between.next = second.staged;
+  for (const double fraction : {0.25, 0.75, 0.4}) {
+    between.towards_next = fraction;
+    EXPECT_EQ(settled(live, between), fraction < 0.5 ? of_first : of_second) << fraction;
+  }
+  between.options.display.shadow = false;
+  EXPECT_NE(settled(live, between), of_first);
 }
 
 // The block's echoes are of -30 dB: no ray meets a surface of more, which the picture says instead of being empty. Where

@@ -146,6 +146,7 @@ Result<DrawnPing> DrawnObservation::ping(std::int64_t ping_index, Work& work) {
   auto staged = engine_->kept_or_staged(ping_index);
   if (!staged) return pass_on(staged);
   ping.staged = std::move(*staged);
+  ping.heard = ping.staged;
   return ping;
 }
 

@@ -38,6 +38,8 @@ struct DrawnPing {
   PingNavigation navigation;
   std::shared_ptr<const StagedPing> staged;  ///< null without raw files
   std::vector<DrawnMask> masks;              ///< by school_id; none without a product
+  /// What was heard where the masks are: `staged`, but where that is interpolated between two pings the nearer of both.
+  std::shared_ptr<const StagedPing> heard{};
 };
 
 /// One observation of a source: its raw files, its product, or both (matched by ping times, never by name).

@@ -174,7 +174,7 @@ Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observa
   data.masks = chosen_layers(*ping, options);
   data.refused = drawn_refused(observation, *sector, ping->ping_index, options);
   if (options.display.shadow && ping->staged) {
-    data.shadow_from = shadow_of_schools(*ping->staged, *sector, mask_layers(*ping, options),
+    data.shadow_from = shadow_of_schools(*ping->heard, *sector, mask_layers(*ping, options),
                                          observation.recipe().measure.extinction, options.display);
   }
   SliceStyle style = slice_style(options.display, colours_of(options));

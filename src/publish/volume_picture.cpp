@@ -119,7 +119,7 @@ Result<VolumeFigure> prepare(DrawnObservation& observation, const PictureOptions
     out.fitted = fitted_seabed(*ping->staged);
     if (options.display.shadow) {
       out.shadow_from = std::make_shared<const std::vector<int>>(shadow_of_schools(
-          *ping->staged, *sector, out.masks, observation.recipe().measure.extinction, options.display));
+          *ping->heard, *sector, out.masks, observation.recipe().measure.extinction, options.display));
     }
   } else {
     const Shape3 shape{sector->fans(), sector->beams(), sector->range().count};

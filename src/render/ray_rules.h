@@ -23,7 +23,9 @@ namespace sonar {
 // of one school. Confidence of a layer = interpolated over its own voxels; of layers met in one sample the lowest number
 // lies in front. Where a layer first reaches fuzzy_above (half a
 // quantum at least) its surface is laid over what lies behind, with fuzzy_opacity, once a ray and layer; where it
-// reaches core_at, core_extinction_per_m is added to the data's extinction, colours weighted by extinction.
+// reaches core_at, core_extinction_per_m is added to the data's extinction, colours weighted by extinction. Both places are
+// looked for between samples (kMaskHalvings times the half), so that a mask does not hang on where these stand. A surface's
+// slope is that half a step behind it, if the mask is so deep: at the very edge it is that of a voxel's face.
 // Surfaces (first hit; volume and surface). The ray ends with opacity 1 where the level is crossed, colour of that level; what
 // accumulates up to the start of that interval lies before it. Maximum. Colour of the largest Sv behind the masks'
 // light; the peak is looked for between samples, at h / 2, h / 4 ... to both sides, kClimbs times.
@@ -46,11 +48,11 @@ inline constexpr float kFaceIndex = 2e-3F;  ///< within so much of an index of t
 /// fract(fract(52.9829189 fract(0.06711056 x + 0.00583715 y)) + 0.61803399 frame), x, y of the full picture.
 [[nodiscard]] double sample_phase(int x, int y, std::uint32_t jitter_frame);
 
-/// Whether a series of frames moves the samples along the rays: where something adds up from sample to sample, which shows
-/// in stripes else. A first hit and a maximum are found between the samples anyway; moved, they only differ from frame to
-/// frame where a sample meets noise: 38 dB instead of 99 against sixteen rays a pixel, and no nearer to finer steps.
-/// masked  their cores add up
-[[nodiscard]] constexpr bool moves_samples(RayMode mode, bool masked) { return accumulates(mode) || masked; }
+/// Whether a series of frames moves the samples along the rays: where data add up from sample to sample, which shows
+/// in stripes else. A first hit, a maximum and masks are found between the samples anyway; moved, they only differ from frame
+/// to frame where a sample meets noise: 38 dB instead of 99 against sixteen rays a pixel, and no nearer to finer steps.
+/// data  MaskStyle::data_too
+[[nodiscard]] constexpr bool moves_samples(RayMode mode, bool data) { return accumulates(mode) && data; }
 
 /// Where in its pixel a frame's rays stand, off the middle, -0.5..0.5 in x and y; (0, 0) for frame 0. The same for all
 /// pixels. Sixteen frames stand in the middles of a pixel's 4 x 4 parts: their mean is the picture of sixteen rays a pixel
@@ -59,6 +61,7 @@ inline constexpr float kFaceIndex = 2e-3F;  ///< within so much of an index of t
 [[nodiscard]] PixelPoint pixel_shift(std::uint32_t jitter_frame);
 
 inline constexpr int kClimbs = 3;
+inline constexpr int kMaskHalvings = 8;
 inline constexpr int kSkyRays = 8;
 inline constexpr int kSkySteps = 8;
 /// Directions in which a frame looks whether ambient light comes: (first tangent, second tangent, normal). Two rings of

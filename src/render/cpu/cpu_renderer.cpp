@@ -228,7 +228,7 @@ TraceView CpuRenderer::traced(const VolumeView& view, const DrawQuality& quality
   v.mode = view.mode;
   v.data = view.masks.data_too;
   v.masked = !masks_.empty();
-  v.samples_frame = moves_samples(v.mode, v.masked) ? quality.jitter_frame : 0;
+  v.samples_frame = moves_samples(v.mode, v.data) ? quality.jitter_frame : 0;
   v.plain =
       v.mode == RayMode::accumulate && v.data && !v.masked && !view.lighting.on && !view.cue.on() && filled_.complete();
   v.first_hit_count = f(counts_from_db(view.first_hit_db));

@@ -8,8 +8,10 @@
 #endif
 
 #include <bit>
+#include <type_traits>
 
 #include "base/units.h"
+#include "render/cpu/masks-inl.h"
 #include "render/cpu/sky-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,7 +21,6 @@ namespace sonar::HWY_NAMESPACE {
 template <bool kPlain>
 class Packet {
  public:
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): as many of met_ as there are masks
   Packet(const TraceJob& job, const Rays& ray, V eye_u, V phase, V from, V last)
       : grid_(job.grid),
         optics_(job.optics),
@@ -32,7 +33,8 @@ class Packet {
         first_(from),
         last_(last),
         step_(set(job.view.step_m)),
-        per_step_(set(1.0F / job.view.step_m)) {
+        per_step_(set(1.0F / job.view.step_m)),
+        masks_(from, job.view.masks) {
     rgb_ = {zero(), zero(), zero()};
     left_ = set(1.0F);
     if constexpr (!kPlain) {
@@ -45,7 +47,6 @@ class Packet {
       pale_from_ = hn::MulAdd(eye_u, pale_per_u_, set(job.view.nearest_m * job.view.per_m));
       before_ = set(-1.0F);
       before_u_ = zero();
-      for (int i = 0; i <= job.view.masks; ++i) met_[i] = 0;
     }
   }
 
@@ -55,9 +56,13 @@ class Packet {
       if (!any(alive)) return;
       const M ended = hn::And(alive, hn::Ge(hn::Add(from_, set(1e-4F)), to_));
       if (any(ended)) {
+        if constexpr (!kPlain) meet_rest(ended, to_);
         next_piece(grid_, ray_, ended, last_, from_, to_);
         met_sector_ = hn::Or(met_sector_, hn::And(ended, hn::Lt(from_, last_)));
-        if constexpr (!kPlain) before_ = hn::IfThenElse(ended, set(-1.0F), before_);
+        if constexpr (!kPlain) {
+          before_ = hn::IfThenElse(ended, set(-1.0F), before_);
+          masks_.pass(ended, from_, none());
+        }
         continue;
       }
       advance(alive, counts);
@@ -69,6 +74,7 @@ class Packet {
 
   void store(std::array<float, 4>* const* out, std::uint32_t lanes) {
     if constexpr (!kPlain) {
+      meet_rest(hn::Gt(left_, set(0.01F)), to_);
       if (view_.mode == RayMode::maximum) show_largest();
     }
     // Rays that ended early are opaque: what they had not yet seen is taken to look like what they had.
@@ -124,6 +130,7 @@ class Packet {
   HWY_NOINLINE void move(M empty, M thin, W cell, W word, const Place& p, V u, V end, RayCounts& counts) {
     counts.leaps += static_cast<std::int64_t>(hn::CountTrue(D(), empty));
     const W distance = hn::Max(hn::Sub(hn::And(word, seti(kCellDistance)), seti(1)), seti(0));
+    if constexpr (!kPlain) meet_rest(hn::Or(empty, thin), u);
     const V exit = block_exit(grid_, ray_, p, distance, u, to_);
     const V step = set(view_.step_m);
     const V per_step = set(1.0F / view_.step_m);
@@ -137,6 +144,7 @@ class Packet {
       const V below = hn::IfThenElse(is_set<kGapsBit>(word), set(-1.0F), set(1.0F));
       before_ = hn::IfThenElse(passed, below, before_);
       before_u_ = hn::IfThenElse(passed, hn::Min(exit, to_), before_u_);
+      masks_.pass(passed, hn::Min(exit, to_), none());
     }
     if (any(thin)) {
       counts.segments += static_cast<std::int64_t>(hn::CountTrue(D(), thin));
@@ -179,37 +187,57 @@ class Packet {
     const W voxel = voxel_of(grid_, p);
     Rgb emission{zero(), zero(), zero()};
     V extinction = zero();
-    if (view_.masked && any(hn::And(lanes, is_set<kMaskBit>(word)))) {
-      meet_masks(hn::And(lanes, is_set<kMaskBit>(word)), p, voxel, u, emission, extinction);
+    const Heard heard = view_.data ? heard_at(lanes, p, voxel, word) : Heard{zero(), zero(), none()};
+    M hits = none();
+    V until = u;
+    if (ends_at_surface(view_.mode)) {
+      hits = hn::And(heard.counts, hn::Ge(heard.value, set(view_.first_hit_count)));
+      if (any(hits)) until = hn::IfThenElse(hits, level_before(u), u);
+      before_ = hn::IfThenElse(heard.counts, set(1.0F), hn::IfThenElse(lanes, set(-1.0F), before_));
+      before_u_ = hn::IfThenElse(lanes, u, before_u_);
     }
-    if (view_.data) meet_data(lanes, p, voxel, word, u, emission, extinction);
-    const M lit_up = hn::Gt(extinction, zero());
-    if (!any(lit_up)) return;
+    if (view_.masked) {
+      const M here = hn::And(lanes, is_set<kMaskBit>(word));
+      const M near = hn::Or(here, hn::And(lanes, masks_.near()));
+      if (any(near)) meet_masks(near, until, true, length, emission, extinction);
+      masks_.pass(lanes, u, here);
+    }
+    if (any(hits)) {
+      lay_sum(hits, emission, extinction, length, u);
+      hit(hits, until);
+    }
+    if (view_.data) meet_data(lanes, p, voxel, heard, u, emission, extinction);
+    lay_sum(lanes, emission, extinction, length, u);
+  }
+
+  /// Over a length round u.
+  void lay_sum(M lanes, const Rgb& emission, V extinction, V length, V u) {
+    if (!any(hn::And(lanes, hn::Gt(extinction, zero())))) return;
     const V per = hn::Div(set(1.0F), hn::Max(extinction, set(1e-12F)));
-    lay(opacity_of(hn::Mul(extinction, length)),
+    lay(hn::IfThenElseZero(lanes, opacity_of(hn::Mul(extinction, length))),
         {hn::Mul(emission.r, per), hn::Mul(emission.g, per), hn::Mul(emission.b, per)}, u);
   }
 
-  void meet_data(M lanes, const Place& p, W voxel, W word, V u, Rgb& emission, V& extinction) {
-    const V value = value_at(grid_, p);
+  struct Heard {
+    V value, share;
+    M counts;  ///< enough is known
+  };
+  Heard heard_at(M lanes, const Place& p, W voxel, W word) const {
     V share = set(1.0F);
     if (grid_.known != nullptr && any(hn::And(lanes, is_set<kGapsBit>(word)))) share = share_of(grid_, voxel, p);
-    const M counts = hn::And(lanes, hn::Ge(share, set(0.5F)));
+    return {value_at(grid_, p), share, hn::And(lanes, hn::Ge(share, set(0.5F)))};
+  }
+
+  void meet_data(M lanes, const Place& p, W voxel, const Heard& heard, V u, Rgb& emission, V& extinction) {
+    const V value = heard.value;
     if (view_.mode == RayMode::maximum) {
-      const M larger = hn::And(counts, hn::Gt(value, largest_));
+      const M larger = hn::And(heard.counts, hn::Gt(value, largest_));
       largest_ = hn::IfThenElse(larger, value, largest_);
       largest_u_ = hn::IfThenElse(larger, u, largest_u_);
-      return;
     }
-    if (ends_at_surface(view_.mode)) {
-      const M above = hn::And(counts, hn::Ge(value, set(view_.first_hit_count)));
-      if (any(above)) hit(above, u);
-      before_ = hn::IfThenElse(counts, set(1.0F), hn::IfThenElse(lanes, set(-1.0F), before_));
-      before_u_ = hn::IfThenElse(lanes, u, before_u_);
-      if (!accumulates(view_.mode)) return;
-    }
+    if (!accumulates(view_.mode)) return;
     const Seen seen = seen_at(value);
-    const V own = hn::IfThenElseZero(lanes, hn::Mul(share, seen.extinction));
+    const V own = hn::IfThenElseZero(lanes, hn::Mul(heard.share, seen.extinction));
     if (!any(hn::Gt(own, zero()))) return;
     Rgb rgb = unpacked(seen.rgb10);
     if (view_.lighting.on) {
@@ -222,8 +250,8 @@ class Packet {
     extinction = hn::Add(extinction, own);
   }
 
-  /// Ends the rays of `lanes` at the level between their last sample and this one.
-  void hit(M lanes, V u) {
+  /// Where the level is reached between the last sample and the one at u.
+  V level_before(V u) const {
     V low = hn::IfThenElse(hn::Gt(before_, zero()), before_u_, u);
     V high = u;
     for (int i = 0; i < 10; ++i) {
@@ -233,7 +261,12 @@ class Packet {
       high = hn::IfThenElse(above, middle, high);
       low = hn::IfThenElse(above, low, middle);
     }
-    const Place p = place_at(grid_, ray_, high);
+    return high;
+  }
+
+  /// Ends the rays of `lanes` at a surface.
+  void hit(M lanes, V u) {
+    const Place p = place_at(grid_, ray_, u);
     const Corners corners = corners_of(grid_, voxel_of(grid_, p));
     Rgb rgb = unpacked(seen_at(value_of(corners, p)).rgb10);
     if (view_.lighting.on) {
@@ -241,59 +274,23 @@ class Packet {
       const V sky = view_.lighting.occlusion_m > 0.0F ? sky_over(grid_, view_, p, g) : set(1.0F);
       light(view_, ray_, g, static_cast<float>(kDbPerCount), rgb, sky);
     }
-    lay(hn::IfThenElseZero(lanes, set(1.0F)), rgb, high);
+    lay(hn::IfThenElseZero(lanes, set(1.0F)), rgb, u);
   }
 
-  /// All layers that touch the voxels round the samples, the lowest number first.
-  void meet_masks(M lanes, const Place& p, W voxel, V u, Rgb& emission, V& extinction) {
-    W word[4];
-    gather_columns(grid_, grid_.masks, voxel, word);
-    std::int32_t layer = next_layer(lanes, word, 0);
-    for (; layer < kNoLayer; layer = next_layer(lanes, word, layer)) {
-      Corners c;
-      for (int i = 0; i < 4; ++i) {
-        c.first[i] = confidence_of(hn::And(word[i], seti(0xFFFF)), layer);
-        c.second[i] = confidence_of(hn::And(hn::ShiftRight<16>(word[i]), seti(0xFFFF)), layer);
-      }
-      meet_layer(lanes, layer, p, c, u, emission, extinction);
-    }
+  void meet_masks(M lanes, V u, bool at_sample, V length, Rgb& emission, V& extinction) {
+    masks_.meet(job_, ray_, lanes, u, at_sample, length, emission, extinction,
+                [this](V opacity, const Rgb& rgb, V at) { lay(opacity, rgb, at); });
   }
 
-  static constexpr std::int32_t kNoLayer = 256;
-
-  std::int32_t next_layer(M lanes, const W word[4], std::int32_t above) const {
-    W least = seti(kNoLayer);
-    for (int i = 0; i < 4; ++i) {
-      const W first = hn::And(hn::ShiftRight<8>(word[i]), seti(0xFF));
-      const W second = hn::And(hn::ShiftRight<24>(word[i]), seti(0xFF));
-      least = hn::Min(least, hn::IfThenElse(hn::Gt(first, seti(above)), first, seti(kNoLayer)));
-      least = hn::Min(least, hn::IfThenElse(hn::Gt(second, seti(above)), second, seti(kNoLayer)));
-    }
-    return hn::GetLane(hn::MinOfLanes(I(), hn::IfThenElse(hn::RebindMask(I(), lanes), least, seti(kNoLayer))));
-  }
-
-  static V confidence_of(W half, std::int32_t layer) {
-    const auto of_layer = hn::Eq(hn::ShiftRight<8>(half), seti(layer));
-    return hn::ConvertTo(D(), hn::IfThenElseZero(of_layer, hn::And(half, seti(0xFF))));
-  }
-
-  void meet_layer(M lanes, std::int32_t layer, const Place& p, const Corners& c, V u, Rgb& emission, V& extinction) {
-    const V confidence = value_of(c, p);
-    const auto& colour = view_.mask_rgb[layer - 1];
-    const M at_surface = hn::And(lanes, hn::Ge(confidence, set(view_.fuzzy_at)));
-    const std::uint32_t fresh = bits(at_surface) & ~met_[layer];
-    if (fresh != 0) {
-      met_[layer] |= fresh;
-      Rgb rgb{set(colour[0]), set(colour[1]), set(colour[2])};
-      if (view_.lighting.on) light(view_, ray_, gradient_of(grid_, p, slope_of(c, p)), 1e6F, rgb, set(1.0F));
-      lay(hn::IfThenElseZero(mask_of(fresh), set(view_.fuzzy_opacity)), rgb, u);
-    }
-    const M in_core = hn::And(lanes, hn::Ge(confidence, set(view_.core_at)));
-    const V own = hn::IfThenElseZero(in_core, set(view_.core_extinction));
-    emission.r = hn::MulAdd(own, set(colour[0]), emission.r);
-    emission.g = hn::MulAdd(own, set(colour[1]), emission.g);
-    emission.b = hn::MulAdd(own, set(colour[2]), emission.b);
-    extinction = hn::Add(extinction, own);
+  /// What is left of masks behind the last sample, up to u.
+  void meet_rest(M passed, V u) {
+    const M lanes = hn::And(passed, masks_.near());
+    if (!any(lanes)) return;
+    Rgb emission{zero(), zero(), zero()};
+    V extinction = zero();
+    meet_masks(lanes, u, false, set(1.0F), emission, extinction);
+    lay_sum(lanes, emission, extinction, set(1.0F), u);
+    masks_.pass(lanes, u, none());
   }
 
   /// Cells that cannot raise a ray's maximum are empty to it; masks there count all the same.
@@ -386,7 +383,7 @@ class Packet {
   Rgb rgb_;
   V largest_, largest_u_, before_, before_u_;
   V pale_per_u_, pale_from_;
-  std::uint32_t met_[kPlain ? 1 : 256];
+  std::conditional_t<kPlain, NoMasks, MasksMet> masks_;
 };
 
 }  // namespace sonar::HWY_NAMESPACE

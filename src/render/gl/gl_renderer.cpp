@@ -252,8 +252,7 @@ Result<RayImage> GlRenderer::traced(const VolumeView& view, const DrawQuality& q
                         plan_,
                         volume_->surface_z_m,
                         counts_per_unit,
-                        {cells_.ranges, cells_.beams, cells_.fans},
-                        !masks_.empty()}),
+                        {cells_.ranges, cells_.beams, cells_.fans}}),
              textures());
   RayImage out{size, std::vector<std::array<float, 4>>(size.count()), {}};
   glReadBuffer(GL_COLOR_ATTACHMENT0);

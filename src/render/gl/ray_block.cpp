@@ -31,7 +31,7 @@ void fill_camera(const RayBlockSource& s, RayBlock& out) {
   out.right = turned(camera.right, middle, camera.tan_half_fov);
   out.up = turned(camera.up, middle, s.quality.step_samples * s.axes.spacing_m);
   out.forward = turned(camera.forward, middle, s.surface_z_m);
-  const bool moves = moves_samples(s.view.mode, s.masked);
+  const bool moves = moves_samples(s.view.mode, s.view.masks.data_too);
   out.eye = turned(camera.eye, middle, jitter_offset(moves ? s.quality.jitter_frame : 0));
   out.light = turned(light_direction(camera), middle, static_cast<double>(s.view.lighting.full_gradient_db_per_m));
   const Lighting& l = s.view.lighting;

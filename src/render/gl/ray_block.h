@@ -54,7 +54,6 @@ struct RayBlockSource {
   double surface_z_m;
   double counts_per_unit;  ///< of the volume's texture
   std::array<int, 3> cells;
-  bool masked;
 };
 [[nodiscard]] RayBlock ray_block(const RayBlockSource& source);
 

@@ -6,17 +6,20 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
-#include "render/gl/context_egl.h"
-#include "render/gl/gl_renderer.h"
+#include "render/gl/both_back_ends.h"
 #include "render/ray_rules.h"
 #include "render/reference/brute_force.h"
 #include "render/test_scenes.h"
 
 namespace sonar {
 namespace {
+
+using gl_test::drawn;
+using gl_test::mean_of;
 
 constexpr double kLevel_db = -50.0;
 
@@ -101,58 +104,27 @@ Ball room() { return {centre(), 6.0, -2.0}; }
 Lighting lamp_alone() { return {true, 0.0F, 1.0F, 0.0F, 0.1F, 0.0F}; }
 Lighting sky_alone(float reach_m) { return {true, 1.0F, 0.0F, 0.0F, 0.1F, reach_m}; }
 
-RayImage drawn(VolumeRenderer& r, const std::shared_ptr<const VolumeData>& volume, const OpticalTable& optics,
-               const VolumeView& view, const DrawQuality& quality = {}) {
-  Work work(2);
-  EXPECT_TRUE(r.set_volume(volume));
-  EXPECT_TRUE(r.set_transfer(optics));
-  auto out = r.draw(view, quality, work);
-  EXPECT_TRUE(out) << (out ? "" : to_line(out.error()));
-  return out ? std::move(*out) : RayImage{view.size, std::vector<std::array<float, 4>>(view.size.count()), {}};
-}
-
-/// The mean of frames 1..n.
-RayImage mean_of(VolumeRenderer& r, const std::shared_ptr<const VolumeData>& volume, const OpticalTable& optics,
-                 const VolumeView& view, int frames) {
-  RayImage sum{view.size, std::vector<std::array<float, 4>>(view.size.count()), {}};
-  for (int n = 1; n <= frames; ++n) {
-    const RayImage one = drawn(r, volume, optics, view, {1, 1.0, 0.03, static_cast<std::uint32_t>(n)});
-    for (std::size_t i = 0; i < sum.rgba.size(); ++i) {
-      for (std::size_t c = 0; c < 4; ++c) sum.rgba[i][c] += one.rgba[i][c] / static_cast<float>(frames);
-    }
-  }
-  return sum;
-}
-
 const std::array<float, 4>& pixel(const RayImage& image, int x, int y) {
   return image.rgba[static_cast<std::size_t>(y * image.size.width + x)];
 }
 
-/// Of the processor, or of OpenGL: skipped where that cannot be had.
 class Surfaces : public testing::TestWithParam<bool> {
  protected:
   void SetUp() override {
-    if (!GetParam()) {
-      renderer_ = make_cpu_renderer();
-      return;
-    }
-    auto made = ContextEgl::make();
-    if (!made) GTEST_SKIP() << "no OpenGL here: " << made.error().text;
-    context_ = std::move(*made);
-    ASSERT_TRUE(context_.make_current());
-    auto renderer = make_gl_renderer();
-    ASSERT_TRUE(renderer) << renderer.error().text;
-    renderer_ = std::move(*renderer);
+    back_end_ = gl_test::back_end(GetParam());
+    if (!back_end_) GTEST_SKIP() << "no OpenGL here";
   }
-  ContextEgl context_;
-  std::unique_ptr<VolumeRenderer> renderer_;
+  VolumeRenderer& renderer() { return *back_end_->renderer; }
+
+ private:
+  std::optional<gl_test::BackEnd> back_end_;
 };
 INSTANTIATE_TEST_SUITE_P(BackEnds, Surfaces, testing::Bool(),
                          [](const auto& gl) { return gl.param ? "OpenGl" : "Processor"; });
 
 /// A ball has the outline and the normals of a ball.
 TEST_P(Surfaces, ABallIsRound) {
-  VolumeRenderer& r = *renderer_;
+  VolumeRenderer& r = renderer();
   const Ball ball = lone_ball();
   const auto volume = balls({ball});
   for (const RayMode mode : {RayMode::first_hit, RayMode::volume_and_surface}) {
@@ -181,7 +153,7 @@ TEST_P(Surfaces, ABallIsRound) {
 
 /// All of the sky is seen from a convex body.
 TEST_P(Surfaces, NothingDarkensALoneBall) {
-  VolumeRenderer& r = *renderer_;
+  VolumeRenderer& r = renderer();
   VolumeView seen = view(45.0, RayMode::first_hit);
   seen.lighting = sky_alone(20.0F);
   const auto volume = balls({lone_ball()});
@@ -196,7 +168,7 @@ TEST_P(Surfaces, NothingDarkensALoneBall) {
 /// From any place on the wall of a round room of radius a the wall lies 2 a cos off in a direction so far off the normal:
 /// under the cosine law the mean is 4 a / 3. Linear between steps of 3 m a wall of 6 m radius is met a little early.
 TEST_P(Surfaces, ARoundRoomIsAsDarkAsItIsWide) {
-  VolumeRenderer& r = *renderer_;
+  VolumeRenderer& r = renderer();
   for (const float reach : {12.0F, 24.0F}) {
     VolumeView seen = view(1e-3, RayMode::first_hit);
     seen.lighting = sky_alone(reach);
@@ -214,7 +186,7 @@ TEST_P(Surfaces, ARoundRoomIsAsDarkAsItIsWide) {
 
 /// Between two balls that touch it is darker than on their far sides.
 TEST_P(Surfaces, TwoBallsDarkenEachOther) {
-  VolumeRenderer& r = *renderer_;
+  VolumeRenderer& r = renderer();
   const Point<Sonar> aside = basis(view(45.0, RayMode::first_hit).camera, {96, 96}).right * 5.0;
   const std::vector<Ball> two{{centre() - aside, 5.0, 2.0}, {centre() + aside, 5.0, 2.0}};
   VolumeView seen = view(45.0, RayMode::first_hit);
@@ -230,7 +202,7 @@ TEST_P(Surfaces, TwoBallsDarkenEachOther) {
 
 /// Water of an even extinction before the surface dims it by the exponential of the way through it.
 TEST_P(Surfaces, ASurfaceStandsInItsWater) {
-  VolumeRenderer& r = *renderer_;
+  VolumeRenderer& r = renderer();
   Ball ball = lone_ball();
   ball.fall_db_per_m = 20.0;  // so that no other Sv comes before the level
   const auto volume = balls({ball});
@@ -250,7 +222,7 @@ TEST_P(Surfaces, ASurfaceStandsInItsWater) {
 
 /// Without water before it, it is the first hit; where nothing reaches the level, it is the volume.
 TEST_P(Surfaces, ItIsBothOfWhatItIsMadeOf) {
-  VolumeRenderer& r = *renderer_;
+  VolumeRenderer& r = renderer();
   const auto volume = balls({lone_ball()});
   VolumeView seen = view(45.0, RayMode::first_hit);
   seen.lighting.on = true;
@@ -270,7 +242,7 @@ TEST_P(Surfaces, ItIsBothOfWhatItIsMadeOf) {
 
 /// A surface has as much of the background as its depth says; opacity stays.
 TEST_P(Surfaces, WhatIsFarFades) {
-  VolumeRenderer& r = *renderer_;
+  VolumeRenderer& r = renderer();
   const Ball ball = lone_ball();
   const auto volume = balls({ball});
   VolumeView seen = view(45.0, RayMode::first_hit);
@@ -302,7 +274,7 @@ TEST_P(Surfaces, WhatIsFarFades) {
 
 /// Lit surfaces in lit water, against the reference.
 TEST_P(Surfaces, AgreesWithTheReference) {
-  VolumeRenderer& r = *renderer_;
+  VolumeRenderer& r = renderer();
   const auto volume = scenes::volume(scenes::fan(), 0.5);
   VolumeView seen;
   seen.camera = overview(scenes::fan());
@@ -324,7 +296,7 @@ TEST_P(Surfaces, AgreesWithTheReference) {
 
 /// The mean of sixteen frames is a picture of sixteen rays a pixel.
 TEST_P(Surfaces, FramesAtRestSmoothEdges) {
-  VolumeRenderer& r = *renderer_;
+  VolumeRenderer& r = renderer();
   const auto volume = balls({lone_ball(), {centre() + Point<Sonar>{9.0, 4.0, -6.0}, 5.0, 3.0}});
   for (const RayMode mode : {RayMode::first_hit, RayMode::maximum}) {
     VolumeView seen = view(45.0, mode);
@@ -343,7 +315,7 @@ TEST_P(Surfaces, FramesAtRestSmoothEdges) {
 
 /// So it is in noise, where nearly every pixel has an edge.
 TEST_P(Surfaces, FramesAtRestSmoothNoise) {
-  VolumeRenderer& r = *renderer_;
+  VolumeRenderer& r = renderer();
   const auto volume = scenes::volume(scenes::fan(), 12.0);
   const Rgba8 black{0, 0, 0, 255};
   for (const RayMode mode : {RayMode::first_hit, RayMode::maximum}) {
@@ -372,7 +344,7 @@ TEST_P(Surfaces, AgreesWithTheProcessorFrameByFrame) {
   const std::vector<Ball> two{lone_ball(), {centre() + Point<Sonar>{7.0, 7.0, 0.0}, 4.0, 2.0}};
   for (const std::uint32_t frame : {0U, 3U}) {
     const DrawQuality quality{1, 1.0, 0.03, frame};
-    const Image ours = over(drawn(*renderer_, balls(two), table(0.01F, 0.01F), seen, quality), Rgba8{0, 0, 0, 255});
+    const Image ours = over(drawn(renderer(), balls(two), table(0.01F, 0.01F), seen, quality), Rgba8{0, 0, 0, 255});
     EXPECT_GT(psnr_db(over(drawn(*cpu, balls(two), table(0.01F, 0.01F), seen, quality), Rgba8{0, 0, 0, 255}), ours),
               45.0)
         << frame;

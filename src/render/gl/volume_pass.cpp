@@ -35,7 +35,7 @@ std::string defines(const RayVariant& v) {
          flag("WIDE", v.wide) + flag("LOW_HOLE", v.low_hole) + flag("HIGH_HOLE", v.high_hole) +
          flag("EVEN_BEAMS", v.even_beams) + flag("EVEN_FANS", v.even_fans) + flag("ANGLE_ENTRIES", kAngleEntries) +
          flag("CELL_SAMPLES", kCellSamples) + flag("CELL_ROW", kCellRow) + flag("SKY_STEPS", kSkySteps) +
-         flag("CLIMBS", kClimbs) +
+         flag("CLIMBS", kClimbs) + flag("MASK_HALVINGS", kMaskHalvings) +
          fmt::format("#define ALONG_BEAMS {:.3f}\n#define FACE_INDEX {:.4f}\n", kAlongBeams, kFaceIndex);
 }
 

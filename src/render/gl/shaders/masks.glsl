@@ -4,6 +4,8 @@ uniform usampler3D mask_texture;
 uniform sampler2D mask_colours;  // [layer - 1]
 uint surface_met[MASK_WORDS];
 const uint NO_LAYER = 256u;
+float masks_to = 0.0;     // t up to which masks have been met
+bool near_masks = false;  // the last sample lay in a cell with masks: one more is taken behind it
 
 uint mask_texel(ivec3 i, ivec3 corner) {
 #if FOLDED
@@ -14,48 +16,100 @@ uint mask_texel(ivec3 i, ivec3 corner) {
 #endif
 }
 
-// Lays surfaces over what lies behind; returns emission and extinction of the cores.
-vec4 meet_masks(vec3 g, vec3 p, float t) {
-  ivec3 corner = corner_of(g);
-  vec3 f = g - vec3(corner);
-  uint layer[8];
-  float confidence[8];
-  float weight[8];
+// The voxels round a place.
+struct MaskCorners {
+  vec3 p;
+  ivec3 corner;
+  vec3 f;
+  uint voxel[8];
+};
+
+MaskCorners mask_corners(float t) {
+  MaskCorners c;
+  c.p = base + t * dir;
+  vec3 g = index_of(c.p, sqrt(base2 + t * t));
+  c.corner = corner_of(g);
+  c.f = g - vec3(c.corner);
+  for (int i = 0; i < 8; ++i) c.voxel[i] = mask_texel(c.corner, ivec3(i & 1, (i >> 1) & 1, i >> 2));
+  return c;
+}
+
+uint next_layer(MaskCorners c, uint above) {
+  uint next = NO_LAYER;
+  for (int i = 0; i < 8; ++i) next = (c.voxel[i] >> 8) > above ? min(next, c.voxel[i] >> 8) : next;
+  return next;
+}
+
+float own_value(uint voxel, uint layer) { return (voxel >> 8) == layer ? float(voxel & 255u) / 255.0 : 0.0; }
+
+float confidence_of(MaskCorners c, uint layer) {
+  float sum = 0.0;
   for (int i = 0; i < 8; ++i) {
-    ivec3 at = ivec3(i & 1, (i >> 1) & 1, i >> 2);
-    uint voxel = mask_texel(corner, at);
-    layer[i] = voxel >> 8;
-    confidence[i] = float(voxel & 255u) / 255.0;
-    vec3 w = mix(1.0 - f, f, vec3(at));
-    weight[i] = w.x * w.y * w.z;
+    vec3 w = mix(1.0 - c.f, c.f, vec3(i & 1, (i >> 1) & 1, i >> 2));
+    sum += w.x * w.y * w.z * own_value(c.voxel[i], layer);
   }
-  vec4 core = vec4(0.0);
-  uint mine = 0u;
-  for (int i = 0; i < 8; ++i) {
-    // The lowest number first.
-    uint next = NO_LAYER;
-    for (int k = 0; k < 8; ++k) next = layer[k] > mine ? min(next, layer[k]) : next;
-    if (next == NO_LAYER) break;
-    mine = next;
-    float value[8];
-    float sum = 0.0;
-    for (int k = 0; k < 8; ++k) {
-      value[k] = layer[k] == mine ? confidence[k] : 0.0;
-      sum += weight[k] * value[k];
-    }
-    vec3 colour = texelFetch(mask_colours, ivec2(int(mine) - 1, 0), 0).rgb;
-    uint bit = 1u << (mine & 31u);
-    uint word = mine >> 5;
-    if ((surface_met[word] & bit) == 0u && sum >= max(ray.mask.x, 0.5 / 255.0)) {
-      surface_met[word] |= bit;
+  return sum;
+}
+
+// Where between two places a layer's confidence reaches a level, or falls below it where it does not rise.
+float mask_crossing(uint layer, float low, float high, float level, bool rises) {
+  for (int i = 0; i < MASK_HALVINGS; ++i) {
+    float middle = 0.5 * (low + high);
+    bool later = (confidence_of(mask_corners(middle), layer) >= level) != rises;
+    low = later ? middle : low;
+    high = later ? high : middle;
+  }
+  return high;
+}
+
+vec3 surface_colour(vec3 colour, uint layer, float t, float level) {
 #if LIT
-      vec3 shown = lit(colour, in_metres(slope_of(value, f), corner, p) * 1e6, 1.0);
+  MaskCorners c;
+  for (int i = 1; i >= 0; --i) {
+    c = mask_corners(t + 0.5 * float(i) * ray.up.w);
+    if (confidence_of(c, layer) >= level) break;
+  }
+  float value[8];
+  for (int i = 0; i < 8; ++i) value[i] = own_value(c.voxel[i], layer);
+  return lit(colour, in_metres(slope_of(value, c.f), c.corner, c.p) * 1e6, 1.0);
 #else
-      vec3 shown = colour;
+  return colour;
 #endif
-      lay_over(shown, ray.mask.z, t);
+}
+
+// Of a layer, metres up to t that lie in its core.
+float in_core(uint layer, float first, float last, float t) {
+  bool begins = first >= ray.mask.y;
+  bool ends = last >= ray.mask.y;
+  if (begins == ends) return begins ? t - masks_to : 0.0;
+  float at = mask_crossing(layer, masks_to, t, ray.mask.y, ends);
+  return ends ? t - at : at - masks_to;
+}
+
+// Lays surfaces up to t over what lies behind; returns emission and extinction of the cores up to `end`, times metres.
+vec4 meet_masks(float t, float end) {
+  MaskCorners before = mask_corners(masks_to);
+  MaskCorners here = mask_corners(t);
+  float level = max(ray.mask.x, 0.5 / 255.0);
+  vec4 core = vec4(0.0);
+  uint layer = 0u;
+  for (int i = 0; i < 16; ++i) {
+    // The lowest number first.
+    layer = min(next_layer(before, layer), next_layer(here, layer));
+    if (layer == NO_LAYER) break;
+    float first = confidence_of(before, layer);
+    float last = confidence_of(here, layer);
+    vec3 colour = texelFetch(mask_colours, ivec2(int(layer) - 1, 0), 0).rgb;
+    uint bit = 1u << (layer & 31u);
+    uint word = layer >> 5;
+    if ((surface_met[word] & bit) == 0u && last >= level) {
+      surface_met[word] |= bit;
+      float at = first >= level ? masks_to : mask_crossing(layer, masks_to, t, level, true);
+      lay_over(surface_colour(colour, layer, at, level), ray.mask.z, at);
     }
-    if (sum >= ray.mask.y) core += ray.mask.w * vec4(colour, 1.0);
+    if (ray.mask.w <= 0.0) continue;
+    if (end > t) last = confidence_of(mask_corners(end), layer);
+    core += ray.mask.w * in_core(layer, first, last, end) * vec4(colour, 1.0);
   }
   return core;
 }

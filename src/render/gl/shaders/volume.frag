@@ -8,19 +8,21 @@ float largest_t = 0.0;
 float hit_low = 0.0;   // t of the last place below the level of first hit, and of the first one above
 float hit_high = FAR;
 
+#if !MASKS
+float masks_to = 0.0;
+const bool near_masks = false;
+#endif
+
 vec4 optics(float counts) {
   float entry = clamp(counts * ray.table.x + ray.table.y, 0.0, ray.table.z);
   return texelFetch(optics_texture, ivec2(int(entry + 0.5), 0), 0);
 }
 
-void take_sample(float t, float length_m, uint flags, float before) {
+// masks_end: t up to which masks are met with it
+void take_sample(float t, float length_m, uint flags, float before, float masks_end) {
   vec3 p = base + t * dir;
   vec3 g = index_of(p, sqrt(base2 + t * t));
-#if MASKS
-  vec4 sum = (flags & MASKED) != 0u ? meet_masks(g, p, t) : vec4(0.0);
-#else
   vec4 sum = vec4(0.0);
-#endif
 #if DATA
   float counts = sv_at(g);
 #if GAPPED
@@ -32,9 +34,20 @@ void take_sample(float t, float length_m, uint flags, float before) {
   if (share >= 0.5 && counts >= ray.range.w) {
     hit_low = before;
     hit_high = t;
+#if MASKS
+    near_masks = near_masks || (flags & MASKED) != 0u;
+#endif
     return;
   }
 #endif
+#endif
+#if MASKS
+  bool here = (flags & MASKED) != 0u;
+  if (here || near_masks) sum = meet_masks(t, masks_end) / length_m;
+  near_masks = here;
+  masks_to = masks_end;
+#endif
+#if DATA
 #if ACCUMULATES
   vec4 seen = optics(counts);
 #if LIT
@@ -61,6 +74,10 @@ void end_hit() {
     hit_high = above ? middle : hit_high;
     hit_low = above ? hit_low : middle;
   }
+#if MASKS
+  float before = max(hit_high, masks_to);
+  if (near_masks) lay(meet_masks(before, before), 1.0, hit_high);
+#endif
   vec3 p = base + hit_high * dir;
   vec3 g = index_of(p, length(p));
   vec3 shown = optics(sv_at(g)).rgb;
@@ -119,8 +136,11 @@ bool going() { return through > 0.01 && hit_high >= FAR; }
 
 void walk(vec2 span, float phase) {
   float t = span.x;
+  masks_to = t;
   while (t < span.y && going()) {
+    float left = t;
     float end = piece_end(t, span.y);
+    if (t != left) masks_to = t;
     if (t >= end) continue;
     float r = sqrt(base2 + t * t);
     float h = step_at(r, t);
@@ -131,6 +151,8 @@ void walk(vec2 span, float phase) {
     uvec2 state = texelFetch(state_texture, cell_texel(cell), 0).rg;
     float leave = block_exit(g, max(int(state.r) - 1, 0), at);
     leave = r < ray.cones.z ? min(leave, at + 4.0 * h) : leave;
+    bool behind_masks = near_masks && (state.g & MASKED) == 0u;
+    if (behind_masks) leave = at;
 #if MAXIMUM
     bool empty = state.r > 0u || ((state.g & MASKED) == 0u && float(texelFetch(largest_texture, cell_texel(cell), 0).r) <= largest);
 #else
@@ -138,12 +160,14 @@ void walk(vec2 span, float phase) {
 #endif
     // Steps lie at multiples of h whatever is passed over, so that a picture does not hang on the transfer function.
     float beyond = min(max(next, ceil(leave / h - phase) * h), end);
-    if (empty) {
+    if (empty && !behind_masks) {
+      masks_to = min(leave, end);
       t = beyond;
       continue;
     }
 #if ACCUMULATES
-    if ((state.g & THIN) != 0u && abs(at) <= ALONG_BEAMS * r) {
+    if ((state.g & THIN) != 0u && !behind_masks && abs(at) <= ALONG_BEAMS * r) {
+      masks_to = min(leave, end);
       float stop = min(max(next, floor(leave / h + 0.5) * h), end);
       lay(texelFetch(means_texture, cell_texel(cell), 0), stop - t, 0.5 * (t + stop));
       t = stop;
@@ -152,7 +176,7 @@ void walk(vec2 span, float phase) {
 #endif
     float start = t;
     do {
-      take_sample(at, next - t, state.g, max(start, at - h));
+      take_sample(at, next - t, state.g, max(start, at - h), next >= end ? end : at);
       t = next;
       next = min(step_after(t, h), end);
       at = mix(t, next, phase);
