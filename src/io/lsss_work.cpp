@@ -24,6 +24,9 @@ constexpr std::ptrdiff_t kMostParts = 8'000'000;
 constexpr std::int64_t kMostSamples = std::numeric_limits<std::int32_t>::max();
 constexpr TimeNs kSamePing = kSecondNs / 1000;  ///< a clock that is kept in milliseconds names the same ping
 
+/// What a comment of ours says before the number.
+constexpr std::string_view kCounting = "<!-- Channels and samples count from ";
+
 std::int64_t first_number(LsssNumbering numbering) { return numbering == LsssNumbering::from_one ? 1 : 0; }
 
 /// A number that is the whole text.
@@ -38,6 +41,16 @@ std::optional<Number> number_of(std::string_view text) {
 std::string quoted(std::string_view text) {
   constexpr std::size_t kMostShown = 40;
   return text.size() > kMostShown ? fmt::format("'{}...'", text.substr(0, kMostShown)) : fmt::format("'{}'", text);
+}
+
+/// Before the first element, where a name or an attribute that looks alike does not count.
+std::optional<LsssNumbering> told_numbering(std::string_view text) {
+  const std::string_view before = text.substr(0, text.find("<schools"));
+  const std::size_t at = before.find(kCounting);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view number = before.substr(at + kCounting.size());
+  if (number.starts_with("0.")) return LsssNumbering::from_zero;
+  return number.starts_with("1.") ? std::optional(LsssNumbering::from_one) : std::nullopt;
 }
 
 /// Takes one file's masks off its tree, and knows where it is.
@@ -260,7 +273,8 @@ std::string ping_text(const ObservationProduct& product, const SchoolMask& mask,
 
 }  // namespace
 
-Result<std::vector<LsssSchool>> parse_lsss_work(std::string text, const std::string& file, LsssNumbering numbering) {
+Result<std::vector<LsssSchool>> parse_lsss_work(std::string text, const std::string& file,
+                                                std::optional<LsssNumbering> numbering) {
   const auto refused = [&](std::string what, std::int64_t offset = -1) {
     return fail(ErrorCode::format, std::move(what), {.file = file, .offset = offset});
   };
@@ -272,6 +286,8 @@ Result<std::vector<LsssSchool>> parse_lsss_work(std::string text, const std::str
     return refused(fmt::format("has {} MB and {} elements and attributes; up to {} MB and {} are read",
                                text.size() >> 20U, parts, kMostBytes >> 20U, kMostParts));
   }
+  // The tree is made of the text, which is gone then.
+  if (!numbering) numbering = told_numbering(text).value_or(LsssNumbering::from_one);
   pugi::xml_document document;
   const auto parsed = document.load_buffer_inplace(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
   if (!parsed) return refused(fmt::format("no well-formed XML: {}", parsed.description()), parsed.offset);
@@ -283,7 +299,7 @@ Result<std::vector<LsssSchool>> parse_lsss_work(std::string text, const std::str
   if (std::strcmp(root.name(), "schools") != 0) {
     return refused(fmt::format("begins with {}, where schools is expected", quoted(root.name())));
   }
-  return WorkReader(file, numbering).schools(root);
+  return WorkReader(file, *numbering).schools(root);
 }
 
 std::string main_species(const LsssSchool& school) {
@@ -344,10 +360,10 @@ std::string lsss_work_text(const ObservationProduct& product, TimeNs offset_ns, 
   if (schools.empty()) return {};
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<!-- Channels and samples count from {}. Elements are those that LSSS is known to write; whether it reads a "
+      "{}{}. Elements are those that LSSS is known to write; whether it reads a "
       "file without "
       "growth parameters and figures was not tried. -->\n<schools>\n{}</schools>\n",
-      first, schools);
+      kCounting, first, schools);
 }
 
 }  // namespace sonar

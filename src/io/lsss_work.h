@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -53,11 +54,12 @@ struct LsssSchool {
 /// Masks of a work file. What else stands in it (growth parameters, figures) is passed over.
 /// text    at most 256 MB, and 8 million elements and attributes: a gigabyte while it is read, at worst
 /// file    for messages
+/// numbering  empty = what a comment that lsss_work_text() wrote tells, else from one: LSSS itself tells nothing
 /// errors  format: naming the school, ping and beam, what stands there and what is expected; among them numbers that the
 ///         numbering does not have. unsupported: the interpretation of an echosounder, which has no beams
 /// threads pure
 [[nodiscard]] Result<std::vector<LsssSchool>> parse_lsss_work(std::string text, const std::string& file,
-                                                              LsssNumbering numbering);
+                                                              std::optional<LsssNumbering> numbering);
 
 /// The category with the largest share over all frequencies, as text; empty where a school has none.
 [[nodiscard]] std::string main_species(const LsssSchool& school);
@@ -78,7 +80,7 @@ struct LsssCells {
                                                         std::span<const std::int32_t> sample_count,
                                                         std::span<const TimeNs> times, const std::string& file);
 
-/// The masks of an observation as a work file. A species that is a whole number is taken for a category of LSSS, at the middle
+/// The masks of an observation as a work file, which begins with a comment that tells the numbering. A species that is a whole number is taken for a category of LSSS, at the middle
 /// of the fans' frequencies; other species are left out. Figures and growth parameters are left out too.
 /// product    with its masks and a grid; rejected schools are left out
 /// offset_ns  what the product's recipe added to the times of the datagrams

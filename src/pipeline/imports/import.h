@@ -33,11 +33,11 @@ struct BeamSpan {
 /// Where what is read belongs, and what a file does not say itself.
 struct ImportPlace {
   const SurveyFiles* survey = nullptr;
-  std::vector<std::size_t> observations;         ///< in survey->observations, each with a grid
-  std::optional<int> fan;                        ///< of regions that do not name one
-  std::optional<BeamSpan> beams;                 ///< the same; empty = all of the fan
-  LsssNumbering lsss = LsssNumbering::from_one;  ///< of masks of LSSS
-  std::size_t most_runs = 10'000'000;  ///< of a file's regions, in all pings: a short text can claim any number
+  std::vector<std::size_t> observations;  ///< in survey->observations, each with a grid
+  std::optional<int> fan;                 ///< of regions that do not name one
+  std::optional<BeamSpan> beams;          ///< the same; empty = all of the fan
+  std::optional<LsssNumbering> lsss;      ///< of masks of LSSS; empty = as their file tells, else from one
+  std::size_t most_runs = 10'000'000;     ///< of a file's regions, in all pings: a short text can claim any number
 };
 /// observation  its name; empty = all of the sounder that comes first in the survey and has a grid
 /// errors       usage: there is none of that name, or none with a grid
