@@ -87,7 +87,7 @@ Result<ImportedJournal> imported_journal(const ImportArguments& arguments, Work&
   }
   Imported imported;
   for (const std::string& file : arguments.files) {
-    if (auto read = import_file(file, *place, imported); !read) return pass_on(read);
+    if (auto read = import_file(file, *place, imported, work); !read) return pass_on(read);
   }
   const TimeNs now =
       std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count();

@@ -68,15 +68,17 @@ struct Imported {
 struct ImportFormat {
   std::string_view ending;  ///< ".evr"
   std::string_view text;    ///< what it is
-  /// errors  format, unsupported, usage
-  Result<void> (*read)(const std::string& text, const std::string& file, const ImportPlace& place, Imported& imported);
+  /// errors  format, unsupported, usage, cancelled
+  Result<void> (*read)(const std::string& text, const std::string& file, const ImportPlace& place, Imported& imported,
+                       const Work& work);
 };
 [[nodiscard]] std::span<const ImportFormat> import_formats();
 
 /// Adds what a file says.
 /// file    at most 256 MB
 /// errors  usage: no such ending; not_found, io, format; as the format's
-[[nodiscard]] Result<void> import_file(const std::filesystem::path& file, const ImportPlace& place, Imported& imported);
+[[nodiscard]] Result<void> import_file(const std::filesystem::path& file, const ImportPlace& place, Imported& imported,
+                                       const Work& work);
 
 /// Who imports, and when.
 struct ImportedBy {
