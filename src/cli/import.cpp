@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,7 +34,7 @@ struct ImportArguments {
   std::string observation;
   std::optional<int> fan;
   std::string beams;
-  int count_from = 1;
+  std::optional<int> count_from;
   std::string recipe;
   std::string operator_name;
   std::string out;
@@ -47,6 +50,10 @@ Result<std::optional<BeamSpan>> parse_beams(const std::string& text) {
   }
   return std::optional<BeamSpan>{BeamSpan{static_cast<int>((*numbers)[0]), static_cast<int>((*numbers)[1])}};
 }
+
+/// Option, and the ending of the files that it is for.
+constexpr std::array<std::pair<const char*, std::string_view>, 3> kOptionsOfOneFormat{
+    {{"--fan", ".evr"}, {"--beams", ".evr"}, {"--count-from", ".work"}}};
 
 /// A journal holds decisions of people: none is written over.
 Result<void> require_new_journal(const std::filesystem::path& file) {
@@ -75,10 +82,12 @@ Result<ImportedJournal> imported_journal(const ImportArguments& arguments, Work&
   if (!place) return pass_on(place);
   place->fan = arguments.fan;
   place->beams = *beams;
-  place->lsss = arguments.count_from == 0 ? LsssNumbering::from_zero : LsssNumbering::from_one;
+  if (arguments.count_from) {
+    place->lsss = *arguments.count_from == 0 ? LsssNumbering::from_zero : LsssNumbering::from_one;
+  }
   Imported imported;
   for (const std::string& file : arguments.files) {
-    if (auto read = import_file(file, *place, imported); !read) return pass_on(read);
+    if (auto read = import_file(file, *place, imported, work); !read) return pass_on(read);
   }
   const TimeNs now =
       std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
@@ -123,13 +132,20 @@ void add_import(CLI::App& app, VerbRunner& run) {
   verb->add_option("--fan", arguments->fan, "Fan from 0, the deepest, of regions whose notes do not name one")
       ->check(whole_within(0, 100000));
   verb->add_option("--beams", arguments->beams, "Beams from 0 of the same; default: all of the fan")->type_name("A:B");
-  verb->add_option("--count-from", arguments->count_from, ".work: number of the first channel and sample, 1 or 0")
-      ->check(whole_within(0, 1))
-      ->capture_default_str();
+  verb->add_option("--count-from", arguments->count_from,
+                   ".work: number of the first channel and sample, 1 or 0; default: what files of export tell, else 1")
+      ->check(whole_within(0, 1));
   verb->add_option("--recipe", arguments->recipe, "Parameters of every stage (see sonarx recipe)")->check(named_file());
   verb->add_option("--operator", arguments->operator_name, "Who imports, for the journal")->type_name("NAME");
   verb->add_option("-j,--jobs", arguments->jobs, "Threads; 0 = all of the machine's")->check(whole_within(0, 1024));
-  verb->callback([arguments, &run] { run = [arguments] { return import_verb(*arguments); }; });
+  verb->callback([arguments, &run, verb] {
+    for (const auto& [option, ending] : kOptionsOfOneFormat) {
+      const auto suits = [&](const std::string& file) { return has_ending(file, ending); };
+      if (verb->get_option(option)->count() == 0 || std::ranges::any_of(arguments->files, suits)) continue;
+      throw CLI::ValidationError(option, fmt::format("belongs to files that end in {}; none is given", ending));
+    }
+    run = [arguments] { return import_verb(*arguments); };
+  });
 }
 
 }  // namespace sonar

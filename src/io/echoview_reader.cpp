@@ -22,9 +22,17 @@ constexpr double kMostDepth_m = 1e5;
 
 using Words = std::vector<std::string_view>;
 
-Words words_of(std::string_view line) {
+/// Among the words of one line, which may be all of a file.
+constexpr std::size_t kWordsBetweenLooks = 4096;
+
+bool stopped(const Work* work) { return work != nullptr && work->cancelled(); }
+tl::unexpected<Error> stop() { return fail(ErrorCode::cancelled, "stopped on request"); }
+
+/// Fewer of them where the work is stopped; who passes it asks for that before he believes them.
+Words words_of(std::string_view line, const Work* work = nullptr) {
   Words words;
   for (std::size_t at = 0; at < line.size();) {
+    if (words.size() % kWordsBetweenLooks == 0 && stopped(work)) break;
     const std::size_t begin = line.find_first_not_of(" \t", at);
     if (begin == std::string_view::npos) break;
     at = std::min(line.find_first_of(" \t", begin), line.size());
@@ -67,15 +75,19 @@ std::optional<double> depth_of(std::string_view word) {
 /// The lines of a file, one after the other.
 class Lines {
  public:
-  Lines(std::string_view text, const std::string& file) : text_(text), file_(file) {
+  Lines(std::string_view text, const std::string& file, const Work* work = nullptr)
+      : text_(text), file_(file), work_(work) {
     if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
   }
 
   [[nodiscard]] std::int64_t number() const { return number_; }  ///< of the line that next() gave last
   [[nodiscard]] bool at_end() const { return text_.empty(); }
 
-  /// errors  format: the file ends where something was expected
+  [[nodiscard]] const Work* work() const { return work_; }
+
+  /// errors  format: the file ends where something was expected; cancelled
   Result<std::string_view> next(std::string_view expected) {
+    if (stopped(work_)) return stop();
     ++number_;
     if (at_end()) return problem(fmt::format("the file ends; expected {}", expected));
     const std::size_t end = std::min(text_.find('\n'), text_.size());
@@ -143,6 +155,7 @@ class Lines {
  private:
   std::string_view text_;
   const std::string& file_;
+  const Work* work_;
   std::int64_t number_ = 0;
 };
 
@@ -176,12 +189,14 @@ Result<std::int64_t> points_of_head(const Lines& lines, std::string_view line) {
 Result<void> read_corners(Lines& lines, std::int64_t count, EchoviewRegion& region) {
   const auto line = lines.next("the points of a region");
   if (!line) return pass_on(line);
-  const Words words = words_of(*line);
+  const Words words = words_of(*line, lines.work());
+  if (stopped(lines.work())) return stop();
   if (words.size() % 3 != 1 || static_cast<std::int64_t>(words.size() / 3) != count) {
     return lines.problem(fmt::format("expected {} (date, time, depth) and the type of the region",
                                      count_of(static_cast<std::size_t>(count), "point")));
   }
   for (std::size_t i = 0; i + 1 < words.size(); i += 3) {
+    if (i % kWordsBetweenLooks == 0 && stopped(lines.work())) return stop();
     const auto time = time_of(words[i], words[i + 1]);
     const auto depth = depth_of(words[i + 2]);
     if (!time || !depth) {
@@ -221,8 +236,8 @@ Result<EchoviewRegion> read_region(Lines& lines) {
 
 }  // namespace
 
-Result<std::vector<EchoviewRegion>> parse_evr(std::string_view text, const std::string& file) {
-  Lines lines(text, file);
+Result<std::vector<EchoviewRegion>> parse_evr(std::string_view text, const std::string& file, const Work* work) {
+  Lines lines(text, file, work);
   if (auto head = lines.head("EVRG", "7"); !head) return pass_on(head);
   const auto count = lines.count("regions");
   if (!count) return pass_on(count);
@@ -267,11 +282,12 @@ std::vector<DepthSpan> depths_at(std::span<const EchoviewCorner> corners, TimeNs
 
 namespace {
 
-std::optional<EchoviewCells::InPing> cells_in_ping(const Words& words) {
+std::optional<EchoviewCells::InPing> cells_in_ping(const Words& words, const Work* work) {
   const auto time = words.size() >= 6 ? time_of(words[1], words[2]) : std::nullopt;
   if (!time || words.size() % 3 != 0) return std::nullopt;
   EchoviewCells::InPing ping{*time, {}};
   for (std::size_t i = 3; i < words.size(); i += 3) {
+    if (i % kWordsBetweenLooks == 0 && stopped(work)) break;
     const auto beam = index_of(words[i]);
     const auto first = index_of(words[i + 1]);
     const auto count = index_of(words[i + 2]);
@@ -283,7 +299,7 @@ std::optional<EchoviewCells::InPing> cells_in_ping(const Words& words) {
 }
 
 /// Whether the line was one of cells; or what was expected in it.
-Result<bool> read_note(const Words& words, EchoviewCells& cells) {
+Result<bool> read_note(const Words& words, EchoviewCells& cells, const Work* work) {
   const auto wrong = [](const char* expected) { return fail(ErrorCode::format, expected); };
   const bool begins_with_number =
       words.size() >= 2 && words[1].find_first_not_of("0123456789") == std::string_view::npos;
@@ -297,7 +313,7 @@ Result<bool> read_note(const Words& words, EchoviewCells& cells) {
     if (!first || !last || *last < *first) return wrong("expected beams A B with A <= B, counted from 0");
     cells.beams = {*first, *last};
   } else if (words[0] == "cells") {
-    auto ping = cells_in_ping(words);
+    auto ping = cells_in_ping(words, work);
     if (!ping) return wrong("expected cells CCYYMMDD HHmmSSssss and BEAM FIRST COUNT of each run");
     const bool rising = cells.pings.empty() || cells.pings.back().time < ping->time;
     if (!rising) return wrong("expected cells of a later ping than the line before");
@@ -310,10 +326,11 @@ Result<bool> read_note(const Words& words, EchoviewCells& cells) {
 
 }  // namespace
 
-Result<EchoviewCells> cells_of(const EchoviewRegion& region, const std::string& file) {
+Result<EchoviewCells> cells_of(const EchoviewRegion& region, const std::string& file, const Work* work) {
   EchoviewCells cells;
   for (std::size_t i = 0; i < region.notes.size(); ++i) {
-    const auto read = read_note(words_of(region.notes[i]), cells);
+    const auto read = read_note(words_of(region.notes[i], work), cells, work);
+    if (stopped(work)) return stop();
     if (!read) {
       const std::int64_t line = region.first_note_line + static_cast<std::int64_t>(i);
       return fail(ErrorCode::format, fmt::format("line {}: {}", line, read.error().text), {file});

@@ -10,6 +10,7 @@
 
 #include "base/result.h"
 #include "base/time.h"
+#include "base/work.h"
 
 namespace sonar {
 
@@ -36,8 +37,10 @@ struct EchoviewRegion {
 };
 
 /// file    for messages
-/// errors  format: line and what was expected there; unsupported: another version of the format
-[[nodiscard]] Result<std::vector<EchoviewRegion>> parse_evr(std::string_view text, const std::string& file);
+/// work    null = is never stopped
+/// errors  format: line and what was expected there; unsupported: another version of the format; cancelled
+[[nodiscard]] Result<std::vector<EchoviewRegion>> parse_evr(std::string_view text, const std::string& file,
+                                                            const Work* work = nullptr);
 
 /// Depths between two sides of a polygon.
 struct DepthSpan {
@@ -71,8 +74,10 @@ struct EchoviewCells {
 };
 /// Notes "fan 3", "beams 3 8" and "cells 20261121 1957265000 BEAM FIRST COUNT BEAM FIRST COUNT ..." of a ping, as evr_text()
 /// writes them.
-/// errors  format: a line that begins so and does not go on so
-[[nodiscard]] Result<EchoviewCells> cells_of(const EchoviewRegion& region, const std::string& file);
+/// work    null = is never stopped
+/// errors  format: a line that begins so and does not go on so; cancelled
+[[nodiscard]] Result<EchoviewCells> cells_of(const EchoviewRegion& region, const std::string& file,
+                                             const Work* work = nullptr);
 
 enum class EchoviewStatus : std::uint8_t { none, unverified, bad, good };
 

@@ -21,8 +21,13 @@ using Xml = pugi::xml_node;
 constexpr std::size_t kMostBytes = 256U << 20U;
 // A tree's elements and attributes take far more room than their text: 40 to 130 bytes for as little as four.
 constexpr std::ptrdiff_t kMostParts = 8'000'000;
+constexpr std::size_t kRunsBetweenLooks = 4096;  ///< whether to stop, among runs of one beam
+constexpr std::size_t kBytesBetweenLooks = 4U << 20U;
 constexpr std::int64_t kMostSamples = std::numeric_limits<std::int32_t>::max();
 constexpr TimeNs kSamePing = kSecondNs / 1000;  ///< a clock that is kept in milliseconds names the same ping
+
+/// What a comment of ours says before the number.
+constexpr std::string_view kCounting = "<!-- Channels and samples count from ";
 
 std::int64_t first_number(LsssNumbering numbering) { return numbering == LsssNumbering::from_one ? 1 : 0; }
 
@@ -40,14 +45,29 @@ std::string quoted(std::string_view text) {
   return text.size() > kMostShown ? fmt::format("'{}...'", text.substr(0, kMostShown)) : fmt::format("'{}'", text);
 }
 
+/// Before the first element, where a name or an attribute that looks alike does not count.
+std::optional<LsssNumbering> told_numbering(std::string_view text) {
+  const std::string_view before = text.substr(0, text.find("<schools"));
+  const std::size_t at = before.find(kCounting);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view number = before.substr(at + kCounting.size());
+  if (number.starts_with("0.")) return LsssNumbering::from_zero;
+  return number.starts_with("1.") ? std::optional(LsssNumbering::from_one) : std::nullopt;
+}
+
+bool stopped(const Work* work) { return work != nullptr && work->cancelled(); }
+tl::unexpected<Error> stop() { return fail(ErrorCode::cancelled, "stopped on request"); }
+
 /// Takes one file's masks off its tree, and knows where it is.
 class WorkReader {
  public:
-  WorkReader(const std::string& file, LsssNumbering numbering) : file_(file), first_(first_number(numbering)) {}
+  WorkReader(const std::string& file, LsssNumbering numbering, const Work* work)
+      : file_(file), first_(first_number(numbering)), work_(work) {}
 
   Result<std::vector<LsssSchool>> schools(const Xml& root) {
     std::vector<LsssSchool> out;
     for (const Xml& one : root.children("schoolData")) {
+      if (stopped(work_)) return stop();
       school_ = static_cast<std::int64_t>(out.size()) + 1;
       ping_ = beam_ = 0;
       auto read = school(one);
@@ -91,6 +111,7 @@ class WorkReader {
     out.school_id_number = *id;
     if (auto read = species(of, out); !read) return pass_on(read);
     for (const Xml& one : of.child("schoolMask").children("pingMask")) {
+      if (stopped(work_)) return stop();
       ++ping_;
       beam_ = 0;
       auto read = ping(one);
@@ -135,6 +156,7 @@ class WorkReader {
     }
     LsssPing out{*time, {}};
     for (const Xml& one : of.children("beam")) {
+      if (stopped(work_)) return stop();
       ++beam_;
       if (auto read = beam(one, out.runs); !read) return pass_on(read);
     }
@@ -189,6 +211,7 @@ class WorkReader {
     std::int64_t at = -first_;
     bool begun = false;
     for (std::string_view word = next(); !word.empty() || !begun; word = next()) {
+      if (runs.size() % kRunsBetweenLooks == 0 && stopped(work_)) return stop();
       const auto skip = number_of<std::int64_t>(word);
       const std::int64_t least = begun ? 0 : first_;
       if (!skip || *skip < least || *skip > kMostSamples) {
@@ -210,6 +233,7 @@ class WorkReader {
 
   const std::string& file_;
   std::int64_t first_;
+  const Work* work_;
   std::int64_t school_ = 0;  ///< which one of the file is being read, from 1; 0 = none
   std::int64_t ping_ = 0;
   std::int64_t beam_ = 0;
@@ -260,18 +284,27 @@ std::string ping_text(const ObservationProduct& product, const SchoolMask& mask,
 
 }  // namespace
 
-Result<std::vector<LsssSchool>> parse_lsss_work(std::string text, const std::string& file, LsssNumbering numbering) {
+Result<std::vector<LsssSchool>> parse_lsss_work(std::string text, const std::string& file,
+                                                std::optional<LsssNumbering> numbering, const Work* work) {
   const auto refused = [&](std::string what, std::int64_t offset = -1) {
     return fail(ErrorCode::format, std::move(what), {.file = file, .offset = offset});
   };
   if (const auto nothing = text.find('\0'); nothing != std::string::npos) {
     return refused("a zero byte, where XML in UTF-8 is expected", static_cast<std::int64_t>(nothing));
   }
-  const auto parts = std::ranges::count_if(text, [](char c) { return c == '<' || c == '='; });
+  std::ptrdiff_t parts = 0;
+  for (std::size_t at = 0; at < text.size(); at += kBytesBetweenLooks) {
+    if (stopped(work)) return stop();
+    parts += std::ranges::count_if(std::string_view(text).substr(at, kBytesBetweenLooks),
+                                   [](char c) { return c == '<' || c == '='; });
+  }
   if (text.size() > kMostBytes || parts > kMostParts) {
     return refused(fmt::format("has {} MB and {} elements and attributes; up to {} MB and {} are read",
                                text.size() >> 20U, parts, kMostBytes >> 20U, kMostParts));
   }
+  // The tree is made of the text, which is gone then.
+  if (!numbering) numbering = told_numbering(text).value_or(LsssNumbering::from_one);
+  if (stopped(work)) return stop();
   pugi::xml_document document;
   const auto parsed = document.load_buffer_inplace(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
   if (!parsed) return refused(fmt::format("no well-formed XML: {}", parsed.description()), parsed.offset);
@@ -283,7 +316,7 @@ Result<std::vector<LsssSchool>> parse_lsss_work(std::string text, const std::str
   if (std::strcmp(root.name(), "schools") != 0) {
     return refused(fmt::format("begins with {}, where schools is expected", quoted(root.name())));
   }
-  return WorkReader(file, numbering).schools(root);
+  return WorkReader(file, *numbering, work).schools(root);
 }
 
 std::string main_species(const LsssSchool& school) {
@@ -296,7 +329,7 @@ std::string main_species(const LsssSchool& school) {
 
 Result<std::vector<LsssCells>> place_lsss(std::span<const LsssSchool> schools, const BeamGrid& grid,
                                           std::span<const std::int32_t> sample_count, std::span<const TimeNs> times,
-                                          const std::string& file) {
+                                          const std::string& file, const Work* work) {
   const std::vector<int> row_of_channel = grid.row_of_channel();
   const auto mismatch = [&](std::size_t school, const LsssPing& ping, const std::string& what) {
     return fail(ErrorCode::mismatch, fmt::format("school {}: ping of {}: {}", school + 1, iso_time(ping.time), what),
@@ -305,6 +338,7 @@ Result<std::vector<LsssCells>> place_lsss(std::span<const LsssSchool> schools, c
   std::vector<LsssCells> out;
   for (std::size_t i = 0; i < schools.size(); ++i) {
     for (const LsssPing& ping : schools[i].pings) {
+      if (stopped(work)) return stop();
       const std::int64_t index = ping_at(times, ping.time);
       if (index < 0) continue;
       for (const LsssRun& run : ping.runs) {
@@ -344,10 +378,10 @@ std::string lsss_work_text(const ObservationProduct& product, TimeNs offset_ns, 
   if (schools.empty()) return {};
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<!-- Channels and samples count from {}. Elements are those that LSSS is known to write; whether it reads a "
+      "{}{}. Elements are those that LSSS is known to write; whether it reads a "
       "file without "
       "growth parameters and figures was not tried. -->\n<schools>\n{}</schools>\n",
-      first, schools);
+      kCounting, first, schools);
 }
 
 }  // namespace sonar

@@ -3,12 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
 #include "base/time.h"
+#include "base/work.h"
 #include "model/product.h"
 
 namespace sonar {
@@ -53,11 +55,14 @@ struct LsssSchool {
 /// Masks of a work file. What else stands in it (growth parameters, figures) is passed over.
 /// text    at most 256 MB, and 8 million elements and attributes: a gigabyte while it is read, at worst
 /// file    for messages
+/// numbering  empty = what a comment that lsss_work_text() wrote tells, else from one: LSSS itself tells nothing
+/// work    null = is never stopped; else within a second, as the XML is taken in one piece
 /// errors  format: naming the school, ping and beam, what stands there and what is expected; among them numbers that the
-///         numbering does not have. unsupported: the interpretation of an echosounder, which has no beams
+///         numbering does not have. unsupported: the interpretation of an echosounder, which has no beams. cancelled
 /// threads pure
 [[nodiscard]] Result<std::vector<LsssSchool>> parse_lsss_work(std::string text, const std::string& file,
-                                                              LsssNumbering numbering);
+                                                              std::optional<LsssNumbering> numbering,
+                                                              const Work* work = nullptr);
 
 /// The category with the largest share over all frequencies, as text; empty where a school has none.
 [[nodiscard]] std::string main_species(const LsssSchool& school);
@@ -73,12 +78,14 @@ struct LsssCells {
 /// sample_count  [fan]
 /// times         [ping_index] of the datagrams, rising
 /// file          for messages
-/// errors        mismatch: a channel that is in no fan, or more samples than its fan has
+/// work          null = is never stopped
+/// errors        mismatch: a channel that is in no fan, or more samples than its fan has; cancelled
 [[nodiscard]] Result<std::vector<LsssCells>> place_lsss(std::span<const LsssSchool> schools, const BeamGrid& grid,
                                                         std::span<const std::int32_t> sample_count,
-                                                        std::span<const TimeNs> times, const std::string& file);
+                                                        std::span<const TimeNs> times, const std::string& file,
+                                                        const Work* work = nullptr);
 
-/// The masks of an observation as a work file. A species that is a whole number is taken for a category of LSSS, at the middle
+/// The masks of an observation as a work file, which begins with a comment that tells the numbering. A species that is a whole number is taken for a category of LSSS, at the middle
 /// of the fans' frequencies; other species are left out. Figures and growth parameters are left out too.
 /// product    with its masks and a grid; rejected schools are left out
 /// offset_ns  what the product's recipe added to the times of the datagrams

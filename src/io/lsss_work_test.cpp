@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -178,6 +179,32 @@ TEST(LsssWork, WhatIsWrittenHasTheSameCellsWhenItIsRead) {
       EXPECT_EQ(runs, mask.mask.runs);
     }
   }
+}
+
+// What we wrote tells how it counts, wherever in the prolog that stands; a file of LSSS does not, nor does a text inside it.
+TEST(LsssWork, TheCommentOfAnExportTellsTheNumbering) {
+  const auto first_channel = [](std::string text, std::optional<LsssNumbering> numbering) {
+    const auto schools = parse_lsss_work(std::move(text), "a.work", numbering);
+    return schools ? schools->at(0).pings.at(0).runs.at(0).channel : -1;
+  };
+  const std::string from_0 = lsss_work_text(two_schools(), 0, from_zero);
+  const std::string from_1 = lsss_work_text(two_schools(), 0, from_one);
+  EXPECT_EQ(first_channel(from_0, std::nullopt), 0);
+  EXPECT_EQ(first_channel(from_1, std::nullopt), 0);
+  std::string edited = from_0;
+  edited.insert(edited.find("<!--"), "<!-- mine -->\n");
+  EXPECT_EQ(first_channel(edited, std::nullopt), 0);
+  const auto in_root = [](std::string_view comment) {
+    return "<schools>" + std::string(comment) +
+           "<schoolData><schoolMask><pingMask pingNtDate=\"128297246410000000\">"
+           "<beam channel=\"2\" beamLength=\"9\" range=\"1 1\"/></pingMask></schoolMask></schoolData></schools>";
+  };
+  EXPECT_EQ(first_channel(in_root(""), std::nullopt), 1);
+  EXPECT_EQ(first_channel(in_root("<!-- Channels and samples count from 0. -->"), std::nullopt), 1);
+  EXPECT_EQ(first_channel("<!-- Channels and samples count from 7. -->" + in_root(""), std::nullopt), 1);
+  EXPECT_EQ(first_channel("<!-- Channels and samples count from 0. -->" + in_root(""), std::nullopt), 2);
+  EXPECT_EQ(first_channel("<!-- Channels and samples count from 0. -->" + in_root(""), from_one), 1)
+      << "who says so himself knows better";
 }
 
 // Rows 1 and 11 of the example are channels 10 and 0; its second ping is at 1 700 000 002.1234567 s.

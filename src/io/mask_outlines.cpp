@@ -7,10 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/units.h"
 #include "geo/geodesic.h"
 #include "io/map_geometry.h"
-#include "model/outline.h"
 
 namespace sonar {
 namespace {
@@ -31,16 +29,16 @@ GeoArea area_of(const OGRMultiPolygon& polygons, const Geographic& origin) {
   return area;
 }
 
-bool placed(const PingNavigation& ping) { return ping.has_position() && std::isfinite(ping.heading_deg); }
+bool has_place(const PingNavigation& ping) { return ping.has_position() && std::isfinite(ping.heading_deg); }
 
-GeoArea swept(const ObservationProduct& product, const Sector& sector) {
+GeoArea swept(const ObservationProduct& product, const Sector& sector, const PlacementOf& placed) {
   std::optional<Geographic> origin;
   std::vector<Ring> footprints;
   for (const PingNavigation& ping : product.pings) {
-    if (!placed(ping)) continue;
+    if (!has_place(ping)) continue;
     if (!origin) origin = ping.transducer;
     const PlaneShift into(ping.transducer, *origin);
-    Ring ring = footprint(*product.grid, sector, rad_from_deg(ping.heading_deg));
+    Ring ring = footprint(*product.grid, sector, placed(ping));
     for (PlanePoint& p : ring) p = into.apply(p);
     footprints.push_back(std::move(ring));
   }
@@ -48,16 +46,16 @@ GeoArea swept(const ObservationProduct& product, const Sector& sector) {
 }
 
 GeoArea school_area(const ObservationProduct& product, const Sector& sector, std::int64_t school_id,
-                    const std::shared_ptr<const Refraction>& rays) {
+                    const PlacementOf& placed) {
   std::optional<Geographic> origin;
   std::vector<std::unique_ptr<OGRMultiPolygon>> parts;
   for (const SchoolMask& mask : product.masks) {
     const auto pings = static_cast<std::int64_t>(product.pings.size());
     if (mask.school_id != school_id || mask.ping_index < 0 || mask.ping_index >= pings) continue;
     const PingNavigation& ping = product.pings[static_cast<std::size_t>(mask.ping_index)];
-    if (!placed(ping)) continue;
+    if (!has_place(ping)) continue;
     if (!origin) origin = ping.transducer;
-    auto outline = united(mask_rings(sector, mask.mask, rad_from_deg(ping.heading_deg), rays));
+    auto outline = united(mask_rings(sector, mask.mask, placed(ping)));
     shift(*outline, PlaneShift(ping.transducer, *origin));
     parts.push_back(std::move(outline));
   }
@@ -66,28 +64,27 @@ GeoArea school_area(const ObservationProduct& product, const Sector& sector, std
 
 }  // namespace
 
-ObservationOutlines map_outlines(const ObservationProduct& product, const std::shared_ptr<const Refraction>& rays) {
+ObservationOutlines map_outlines(const ObservationProduct& product, const PlacementOf& placed) {
   ObservationOutlines out;
   out.observation = product.observation;
   std::optional<Sector> sector;
   if (product.grid) {
     sector = product.grid->grid.sector(product.grid->range);
-    out.swept = swept(product, *sector);
+    out.swept = swept(product, *sector, placed);
   }
   for (const SchoolRow& school : product.schools) {
     out.schools.push_back(
-        {school.school_id, sector ? school_area(product, *sector, school.school_id, rays) : GeoArea{}});
+        {school.school_id, sector ? school_area(product, *sector, school.school_id, placed) : GeoArea{}});
   }
   return out;
 }
 
-GeoArea swept_outline(const ObservationProduct& product) {
-  return product.grid ? swept(product, product.grid->grid.sector(product.grid->range)) : GeoArea{};
+GeoArea swept_outline(const ObservationProduct& product, const PlacementOf& placed) {
+  return product.grid ? swept(product, product.grid->grid.sector(product.grid->range), placed) : GeoArea{};
 }
 
-GeoArea school_outline(const ObservationProduct& product, std::int64_t school_id,
-                       const std::shared_ptr<const Refraction>& rays) {
-  return product.grid ? school_area(product, product.grid->grid.sector(product.grid->range), school_id, rays)
+GeoArea school_outline(const ObservationProduct& product, std::int64_t school_id, const PlacementOf& placed) {
+  return product.grid ? school_area(product, product.grid->grid.sector(product.grid->range), school_id, placed)
                       : GeoArea{};
 }
 

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/units.h"
 #include "io/map_geometry.h"
 #include "io/map_layers.h"
 #include "model/school_totals.h"
@@ -68,12 +67,12 @@ ObservationRow observation_row(const ObservationProduct& product) {
   return row;
 }
 
-bool placed(const PingNavigation& ping) { return ping.has_position() && std::isfinite(ping.heading_deg); }
+bool has_place(const PingNavigation& ping) { return ping.has_position() && std::isfinite(ping.heading_deg); }
 
 const PingNavigation* ping_of(const ObservationProduct& product, std::int64_t index) {
   if (index < 0 || index >= static_cast<std::int64_t>(product.pings.size())) return nullptr;
   const PingNavigation& ping = product.pings[static_cast<std::size_t>(index)];
-  return placed(ping) ? &ping : nullptr;
+  return has_place(ping) ? &ping : nullptr;
 }
 
 const PingMask* mask_of(const ObservationProduct& product, std::int64_t school_id, std::int64_t ping_index) {
@@ -96,9 +95,8 @@ struct SurveyMapWriter::State {
   std::optional<double> reference_deg;  ///< longitude of the survey's first position
 
   Result<void> make_layers(bool near_date_line);
-  Result<void> add_observation(const ObservationProduct& product);
-  Result<void> add_schools(const ObservationProduct& product, const Sector* sector,
-                           const std::shared_ptr<const Refraction>& rays);
+  Result<void> add_observation(const ObservationProduct& product, const PlacementOf& placed);
+  Result<void> add_schools(const ObservationProduct& product, const Sector* sector, const PlacementOf& placed);
   Result<void> add_centres(const ObservationProduct& product);
   [[nodiscard]] double near(double longitude_deg) const {
     return near_longitude(longitude_deg, reference_deg.value_or(longitude_deg));
@@ -120,7 +118,7 @@ Result<void> SurveyMapWriter::State::make_layers(bool near_date_line) {
   return made;
 }
 
-Result<void> SurveyMapWriter::State::add_observation(const ObservationProduct& product) {
+Result<void> SurveyMapWriter::State::add_observation(const ObservationProduct& product, const PlacementOf& placed) {
   const auto attributes = columns_of(std::vector{observation_row(product)});
   OGRLineString track;
   std::optional<Geographic> origin;
@@ -132,9 +130,9 @@ Result<void> SurveyMapWriter::State::add_observation(const ObservationProduct& p
     if (!ping.has_position()) continue;
     if (!origin) origin = ping.transducer;
     track.addPoint(near(ping.transducer.longitude_deg), ping.transducer.latitude_deg);
-    if (!sector || !placed(ping)) continue;
+    if (!sector || !has_place(ping)) continue;
     const PlaneShift into(ping.transducer, *origin);
-    Ring ring = footprint(*product.grid, *sector, rad_from_deg(ping.heading_deg));
+    Ring ring = footprint(*product.grid, *sector, placed(ping));
     for (PlanePoint& p : ring) p = into.apply(p);
     corners.insert(corners.end(), ring.begin(), ring.end());
     footprints.push_back(std::move(ring));
@@ -159,7 +157,7 @@ Result<void> SurveyMapWriter::State::add_observation(const ObservationProduct& p
 }
 
 Result<void> SurveyMapWriter::State::add_schools(const ObservationProduct& product, const Sector* sector,
-                                                 const std::shared_ptr<const Refraction>& rays) {
+                                                 const PlacementOf& placed) {
   const auto attributes = columns_of(product.schools);
   for (std::size_t i = 0; i < product.schools.size(); ++i) {
     const SchoolRow& school = product.schools[i];
@@ -172,7 +170,7 @@ Result<void> SurveyMapWriter::State::add_schools(const ObservationProduct& produ
       std::unique_ptr<OGRPolygon> single;
       if (ping != nullptr && mask != nullptr && sector != nullptr) {
         if (!origin) origin = ping->transducer;
-        auto outline = united(mask_rings(*sector, *mask, rad_from_deg(ping->heading_deg), rays));
+        auto outline = united(mask_rings(*sector, *mask, placed(*ping)));
         single = in_one_piece(*outline);
         ToDegrees(ping->transducer, *reference_deg).apply(*single);
         shift(*outline, PlaneShift(ping->transducer, *origin));
@@ -225,14 +223,14 @@ Result<SurveyMapWriter> SurveyMapWriter::create(const std::filesystem::path& tar
   return SurveyMapWriter(std::move(state));
 }
 
-Result<void> SurveyMapWriter::add(const ObservationProduct& product, const std::shared_ptr<const Refraction>& rays) {
+Result<void> SurveyMapWriter::add(const ObservationProduct& product, const PlacementOf& placed) {
   for (const PingNavigation& ping : product.pings) {
     if (!state_->reference_deg && ping.has_position()) state_->reference_deg = ping.transducer.longitude_deg;
   }
   std::optional<Sector> sector;
   if (product.grid) sector = product.grid->grid.sector(product.grid->range);
-  auto added = state_->add_observation(product);
-  if (added) added = state_->add_schools(product, sector ? &*sector : nullptr, rays);
+  auto added = state_->add_observation(product, placed);
+  if (added) added = state_->add_schools(product, sector ? &*sector : nullptr, placed);
   if (added) added = state_->add_centres(product);
   return added;
 }

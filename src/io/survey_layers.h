@@ -6,7 +6,7 @@
 #include <span>
 
 #include "base/result.h"
-#include "geo/frames.h"
+#include "model/outline.h"
 #include "model/product.h"
 
 namespace sonar {
@@ -38,9 +38,9 @@ class SurveyMapWriter {
   ~SurveyMapWriter();
 
   /// Adds one observation; its masks are needed. Call in the survey's order.
-  /// rays    along which schools' cells are bent; null = straight
+  /// placed  how the pings lie
   /// errors  io
-  Result<void> add(const ObservationProduct& product, const std::shared_ptr<const Refraction>& rays = nullptr);
+  Result<void> add(const ObservationProduct& product, const PlacementOf& placed = &PingNavigation::placement);
   /// Closes, flushes and renames. Without it nothing appears.
   /// errors  io, no_space
   Result<void> finish();

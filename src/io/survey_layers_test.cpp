@@ -329,8 +329,8 @@ TEST(Outline, beam_of_several_fans_is_one_ring) {
   PingMask mask = example::block(0, 1, 1, 20, 10);
   const PingMask above = example::block(1, 1, 1, 20, 10);
   mask.runs.insert(mask.runs.end(), above.runs.begin(), above.runs.end());
-  EXPECT_EQ(mask_rings(sector, mask, 0.0).size(), 1U);
-  EXPECT_TRUE(mask_rings(sector, PingMask{}, 0.0).empty());
+  EXPECT_EQ(mask_rings(sector, mask, Placement{}).size(), 1U);
+  EXPECT_TRUE(mask_rings(sector, PingMask{}, Placement{}).empty());
 }
 
 // Speed falls by 2 m/s each metre from 1490 m/s at the transducer: with u = artanh of the dip's sine, which changes by 2 a
@@ -353,7 +353,10 @@ TEST(Outline, lies_where_sound_comes_from) {
     }
   }
   const auto reach = [&](const std::shared_ptr<const Refraction>& along) {
-    const std::vector<Ring> rings = mask_rings(sector, example::block(1, 1, 1, 20, 10), 0.3, along);
+    Placement placement;
+    placement.heading_rad = 0.3;
+    placement.rays = along;
+    const std::vector<Ring> rings = mask_rings(sector, example::block(1, 1, 1, 20, 10), placement);
     EXPECT_EQ(rings.size(), 1U);
     std::pair<double, double> out{1e9, 0.0};
     for (const PlanePoint& p : rings.at(0)) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace sonar {
 
@@ -19,6 +20,18 @@ std::optional<CurrentAt> current_in(const CurrentProfile& profile, double depth_
   const double share = (depth_m - upper.depth_m) / (lower.depth_m - upper.depth_m);
   return CurrentAt{depth_m, upper.east_mps + share * (lower.east_mps - upper.east_mps),
                    upper.north_mps + share * (lower.north_mps - upper.north_mps)};
+}
+
+double longest_arrow_mps(std::vector<double> speeds_mps) {
+  if (speeds_mps.empty()) return 0.0;
+  constexpr double kAboveMost = 1.5;
+  const double fastest = *std::max_element(speeds_mps.begin(), speeds_mps.end());
+  // Nine tenths, up to the next whole one.
+  const std::size_t rank = (9 * speeds_mps.size() + 9) / 10;
+  const auto most = speeds_mps.begin() + static_cast<std::ptrdiff_t>(rank) - 1;
+  std::nth_element(speeds_mps.begin(), most, speeds_mps.end());
+  const double limit = kAboveMost * *most;
+  return limit > 0.0 ? std::min(fastest, limit) : fastest;
 }
 
 }  // namespace sonar

@@ -31,4 +31,15 @@ using CurrentProfiles = std::vector<CurrentProfile>;  ///< by rising time
 /// the nearest bin is farther than max_gap_m.
 [[nodiscard]] std::optional<CurrentAt> current_in(const CurrentProfile& profile, double depth_m, double max_gap_m);
 
+/// Slower water has no direction.
+inline constexpr double kLeastCurrent_mps = 0.005;
+
+/// The speed of the longest arrows: the fastest, but no more than half as much again as nine tenths of the speeds keep below,
+/// so that a few wild bins (of an ADCP mostly near the bottom and the surface) do not make all others too short to be read.
+/// Where both components of the velocity vary normally, one speed in 180 is above that and is drawn cut. Of fewer than ten
+/// speeds none is.
+/// speeds_mps  0 or more, in any order
+/// out         0 without any
+[[nodiscard]] double longest_arrow_mps(std::vector<double> speeds_mps);
+
 }  // namespace sonar

@@ -2,6 +2,7 @@
 #include "model/outline.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -62,14 +63,14 @@ Interval level_interval(const Sector& sector, const Run& run, int fan) {
 }
 
 /// The same along rays: of the cell row's corners.
-Interval bent_interval(const Sector& sector, const Run& run, int fan, const Placement& along) {
+Interval bent_interval(const Sector& sector, const Run& run, int fan, const Placement& placement) {
   const AngleBounds e = sector.elevation_bounds(fan);
   const RangeAxis& axis = sector.range();
   Interval out{std::numeric_limits<double>::infinity(), 0.0};
   for (const double elevation : {e.lower, std::clamp(0.0, e.lower, e.upper), e.upper}) {
     for (const double sample : {run.first_sample - 0.5, run.end() - 0.5}) {
       const double r = std::max(0.0, axis.range_m(sample));
-      const Point<Sonar> place = levelled(Sector::direction(elevation, 0.0) * r, along);
+      const Point<Sonar> place = levelled(Sector::direction(elevation, 0.0) * r, placement);
       const double level_m = std::hypot(place.x, place.y);
       out = {std::min(out.near_m, level_m), std::max(out.far_m, level_m)};
     }
@@ -90,44 +91,120 @@ std::vector<Interval> joined(std::vector<Interval> intervals) {
   return out;
 }
 
+bool turns(const Placement& placement) { return placement.roll_rad != 0.0 || placement.pitch_rad != 0.0; }
+/// A damaged product may say anything.
+bool known(const Placement& placement) {
+  return std::isfinite(placement.roll_rad) && std::isfinite(placement.pitch_rad);
+}
+
+/// Angle number i of `steps` equal steps.
+double angle_at(const AngleBounds& bounds, int i, int steps) {
+  return bounds.lower + (bounds.upper - bounds.lower) * i / steps;
+}
+
+int chords(const AngleBounds& bounds) {
+  return std::max(1, static_cast<int>(std::ceil((bounds.upper - bounds.lower) / kChord_rad)));
+}
+
+/// A row of cells whose beam is turned no longer lies between circles about the transducer: piece by piece of its azimuth
+/// it is the hull of its corners.
+void append_turned(std::vector<Ring>& rings, const Sector& sector, const Run& run, const Placement& placement) {
+  constexpr double kUp_rad = std::numbers::pi / 2;
+  const AngleBounds a = sector.azimuth_bounds(run.row % sector.beams());
+  const AngleBounds e = sector.elevation_bounds(run.row / sector.beams());
+  const AngleBounds azimuth{a.lower - kHair_rad, a.upper + kHair_rad};
+  const AngleBounds elevation{std::max(e.lower - kHair_rad, -kUp_rad), std::min(e.upper + kHair_rad, kUp_rad)};
+  const RangeAxis& axis = sector.range();
+  const std::array ends_m{std::max(0.0, axis.range_m(run.first_sample - 0.5)),
+                          std::max(0.0, axis.range_m(run.end() - 0.5))};
+  const int pieces = chords(azimuth);
+  const int rows = chords(elevation);
+  const auto append_corners = [&](std::vector<PlanePoint>& corners, double azimuth_rad) {
+    for (int i = 0; i <= rows; ++i) {
+      const Point<Sonar> direction = Sector::direction(angle_at(elevation, i, rows), azimuth_rad);
+      for (const double r : ends_m) {
+        const Point<Enu> at = to_enu(levelled(direction * r, placement), placement.heading_rad);
+        corners.push_back({at.x, at.y});
+      }
+    }
+  };
+  for (int piece = 0; piece < pieces; ++piece) {
+    std::vector<PlanePoint> corners;
+    append_corners(corners, angle_at(azimuth, piece, pieces));
+    append_corners(corners, angle_at(azimuth, piece + 1, pieces));
+    rings.push_back(convex_hull(std::move(corners)));
+  }
+}
+
+/// The farthest that fans reach along an azimuth of the sector once they are turned.
+/// along_m  [fan], of the beams
+PlanePoint farthest(const Sector& sector, const std::vector<double>& along_m, double azimuth_rad,
+                    const Placement& placement) {
+  PlanePoint out{0.0, 0.0};
+  for (int fan = 0; fan < sector.fans(); ++fan) {
+    const AngleBounds e = sector.elevation_bounds(fan);
+    const int rows = chords(e);
+    for (int i = 0; i <= rows; ++i) {
+      const Point<Sonar> direction = Sector::direction(angle_at(e, i, rows), azimuth_rad);
+      const Point<Sonar> turned = levelled_direction(direction, placement) * along_m[static_cast<std::size_t>(fan)];
+      const Point<Enu> at = to_enu(turned, placement.heading_rad);
+      if (std::hypot(at.x, at.y) > std::hypot(out.x, out.y)) out = {at.x, at.y};
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
-Ring footprint(const GridRecord& record, const Sector& sector, double heading_rad) {
+Ring footprint(const GridRecord& record, const Sector& sector, const Placement& placement) {
   double reach_m = 0.0;
+  std::vector<double> along_m(static_cast<std::size_t>(sector.fans()), 0.0);
   for (int fan = 0; fan < sector.fans(); ++fan) {
-    const int samples = std::min(record.sample_count[static_cast<std::size_t>(fan)], record.range.count);
+    const auto f = static_cast<std::size_t>(fan);
+    const int samples = std::min(record.sample_count[f], record.range.count);
     if (samples <= 0) continue;
+    along_m[f] = std::max(0.0, sector.range().range_m(samples - 0.5));
     reach_m = std::max(reach_m, level_interval(sector, {0, samples - 1, 1}, fan).far_m);
   }
   Ring ring;
-  if (reach_m <= 0.0) return ring;
-  const double first = sector.azimuth_bounds(0).lower;
-  const double last = sector.azimuth_bounds(sector.beams() - 1).upper;
-  if (last - first >= 2.0 * std::numbers::pi - 1e-6) {
-    append_arc(ring, 0.0, 2.0 * std::numbers::pi, reach_m, heading_rad);
-    ring.pop_back();
-    return ring;
+  if (reach_m <= 0.0 || !known(placement)) return ring;
+  AngleBounds azimuth{sector.azimuth_bounds(0).lower, sector.azimuth_bounds(sector.beams() - 1).upper};
+  const bool round = azimuth.upper - azimuth.lower >= 2.0 * std::numbers::pi - 1e-6;
+  if (round) azimuth = {0.0, 2.0 * std::numbers::pi};
+  if (turns(placement)) {
+    const int steps = chords(azimuth);
+    for (int i = 0; i <= steps; ++i) {
+      ring.push_back(farthest(sector, along_m, angle_at(azimuth, i, steps), placement));
+    }
+  } else {
+    append_arc(ring, azimuth.lower, azimuth.upper, reach_m, placement.heading_rad);
   }
-  append_arc(ring, first, last, reach_m, heading_rad);
-  ring.push_back({0.0, 0.0});
+  if (round) {
+    ring.pop_back();
+  } else {
+    ring.push_back({0.0, 0.0});
+  }
   return ring;
 }
 
-std::vector<Ring> mask_rings(const Sector& sector, const PingMask& mask, double heading_rad,
-                             const std::shared_ptr<const Refraction>& rays) {
+std::vector<Ring> mask_rings(const Sector& sector, const PingMask& mask, const Placement& placement) {
+  std::vector<Ring> rings;
+  if (!known(placement)) return rings;
+  if (turns(placement)) {
+    for (const Run& run : mask.runs) append_turned(rings, sector, run, placement);
+    return rings;
+  }
   const int beams = sector.beams();
-  Placement along;
-  along.rays = rays;
   std::vector<std::vector<Interval>> of_beam(static_cast<std::size_t>(beams));
   for (const Run& run : mask.runs) {
     const int fan = run.row / beams;
-    const Interval interval = rays ? bent_interval(sector, run, fan, along) : level_interval(sector, run, fan);
+    const Interval interval =
+        placement.rays ? bent_interval(sector, run, fan, placement) : level_interval(sector, run, fan);
     if (interval.far_m > interval.near_m) of_beam[static_cast<std::size_t>(run.row % beams)].push_back(interval);
   }
-  std::vector<Ring> rings;
   for (int beam = 0; beam < beams; ++beam) {
     for (const Interval& interval : joined(std::move(of_beam[static_cast<std::size_t>(beam)]))) {
-      rings.push_back(annular_piece(sector.azimuth_bounds(beam), interval, heading_rad));
+      rings.push_back(annular_piece(sector.azimuth_bounds(beam), interval, placement.heading_rad));
     }
   }
   return rings;

@@ -2,6 +2,7 @@
 #include "publish/chart_layers.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -38,7 +39,7 @@ ObservationOutlines school_outlines(const ObservationProduct& product, const Obs
   out.observation = product.observation;
   out.swept = kept.swept;
   std::optional<ProductPlacements> placements;
-  // Another recipe may bend otherwise.
+  // Another recipe may turn or bend otherwise.
   const bool same_recipe = before != nullptr && before->recipe_json == product.recipe_json;
   for (const SchoolRow& school : product.schools) {
     const auto old = std::find_if(kept.schools.begin(), kept.schools.end(),
@@ -46,12 +47,12 @@ ObservationOutlines school_outlines(const ObservationProduct& product, const Obs
     const bool stays = same_recipe && old != kept.schools.end() && same_masks(*before, product, school.school_id);
     if (!stays && !placements) placements.emplace(product);
     out.schools.push_back(
-        {school.school_id, stays ? old->area : school_outline(product, school.school_id, placements->rays())});
+        {school.school_id, stays ? old->area : school_outline(product, school.school_id, std::cref(*placements))});
   }
   return out;
 }
 
-GeoArea swept_area(const ObservationProduct& product) { return swept_outline(product); }
+GeoArea swept_area(const ObservationProduct& product) { return swept_outline(product, ProductPlacements(product)); }
 
 std::shared_ptr<const CurrentProfiles> map_currents(const ObservationProduct& product) {
   auto recipe = recipe_from_text(product.recipe_json);

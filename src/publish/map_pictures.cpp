@@ -94,7 +94,7 @@ Result<FrameDescription> survey_map_frame(const std::vector<DrawnObservation>& o
   std::vector<ObservationOutlines> outlines(products.size());
   work.for_each(static_cast<std::int64_t>(products.size()), [&](std::int64_t i) {
     const ObservationProduct& product = products[static_cast<std::size_t>(i)];
-    outlines[static_cast<std::size_t>(i)] = map_outlines(product, ProductPlacements(product).rays());
+    outlines[static_cast<std::size_t>(i)] = map_outlines(product, ProductPlacements(product));
   });
   if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
   style.sv_low_db = options.display.scale.low_db;

@@ -175,7 +175,7 @@ TEST(VolumeFigure, ArrowsOfTheCurrentStandWhereItIsTold) {
   EXPECT_NEAR(figure.currents.at[0].north_mps, 0.2, 1e-12);
   EXPECT_EQ(figure.currents.at[1].depth_m, 40.0);
   EXPECT_NEAR(figure.currents.at[1].north_mps, 0.3, 1e-12) << "the last bin holds below it";
-  EXPECT_NEAR(figure.currents.fastest_mps, 0.5, 1e-12);
+  EXPECT_NEAR(figure.currents.longest_mps, 0.5, 1e-12);
   PictureOptions options;
   const auto told = [&] {
     for (const LegendRow& row : volume_legend(figure, options, {0.0, 0.0, 600.0, 400.0}, theme_of(options))) {

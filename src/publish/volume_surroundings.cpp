@@ -31,7 +31,7 @@ CurrentColumn volume_currents(const Recipe& recipe, const Sector& sector, const 
                               const VolumeParams& params, const Units& units) {
   if (!params.current_arrows || recipe.current_profiles.empty() || !on_earth(navigation)) return {};
   const std::vector<double> depths_m = current_depths(sector, navigation.transducer_depth_m, units);
-  return {current_column(recipe, navigation, depths_m), fastest_current_mps(recipe.current_profiles)};
+  return {current_column(recipe, navigation, depths_m), longest_arrow_mps(recipe.current_profiles)};
 }
 
 namespace {

@@ -234,7 +234,7 @@ TEST(UnitsOfPictures, VolumesFollow) {
         ContextParams params;
         params.units = theme.units;
         params.heading_deg = 0.0;
-        params.currents.fastest_mps = 0.4;
+        params.currents.longest_mps = 0.4;
         for (const double depth_m : current_depths(sector, params.transducer_depth_m, theme.units)) {
           params.currents.at.push_back({depth_m, 0.4, 0.0});
         }

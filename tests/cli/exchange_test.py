@@ -421,6 +421,13 @@ class Lsss(Case):
                          for line in lines for channel, first, count in line["args"].get("runs", ())
                          for sample in range(first, first + count))
         self.assertEqual(brushed, sorted(voxel[1:] for voxel in voxels))
+        # The file tells by itself; a human who says otherwise moves them.
+        self.sonarx("import", SURVEY, work, "-o", folder / "told.jsonl")
+        told = [json.loads(line) for line in (folder / "told.jsonl").read_text().splitlines()[1:]]
+        self.assertEqual([line["args"] for line in told], [line["args"] for line in lines])
+        for option, value, ending in (("--fan", "3", ".evr"), ("--beams", "1:2", ".evr")):
+            self.one_line_error("import", SURVEY, work, "-o", folder / "b.jsonl", option, value, code=2,
+                                names=f"{option}: belongs to files that end in {ending}; none is given")
 
 
 class EchoviewBack(Case):
@@ -481,6 +488,8 @@ class EchoviewBack(Case):
         evr.write_bytes(regions(("school", [f"{time} 30", f"{time} 40"], 1)))
         self.one_line_error("import", SURVEY, evr, "-o", folder / "b.jsonl", code=2, names="its notes name no fan")
         self.one_line_error("import", SURVEY, evr, "-o", SURVEY / "b.jsonl", "--fan", "3", code=2, names="raw files")
+        self.one_line_error("import", SURVEY, evr, "-o", folder / "b.jsonl", "--count-from", "0", code=2,
+                            names="--count-from: belongs to files that end in .work; none is given")
         evr.write_bytes(regions(("late", [f"{late} 30"], 2)).replace(b"\r\n1\r\n", b"\r\n7\r\n", 1))
         self.one_line_error("import", SURVEY, evr, "-o", folder / "b.jsonl", code=1, names=f"{evr}: line 10: the file ends; expected a region")
         evr.write_bytes(regions(("late", [f"{late} 30"], 2)))

@@ -143,7 +143,7 @@ Result<Exported> export_map(const Source& source, const fs::path& dest, MapForma
     if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
     const auto product = with_masks(source, i);
     if (!product) return pass_on(product);
-    if (auto added = map->add(*product, ProductPlacements(*product).rays()); !added) return pass_on(added);
+    if (auto added = map->add(*product, ProductPlacements(*product)); !added) return pass_on(added);
     work.progress("map", static_cast<std::int64_t>(i) + 1, std::ssize(source.files));
   }
   if (auto finished = map->finish(); !finished) return pass_on(finished);

@@ -11,10 +11,12 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "base/units.h"
+#include "geo/geodesic.h"
 #include "io/atomic_file.h"
 #include "io/csv.h"
 #include "io/product_example.h"
@@ -181,6 +183,49 @@ TEST_F(Export, surfaces_lie_where_sound_comes_from) {
   // Port up by 5 degrees, of beams that are not stabilised: what lies 45 m to port is lifted by 45 sin 5 = 4 m.
   const auto rolled = surface(false, 5.0);
   EXPECT_NEAR(rolled[0][2] - straight[0][2], 45.0 * std::sin(rad_from_deg(5.0)), 0.7);
+}
+
+/// Of numbers in brackets, "[lon, lat], [lon, lat] ...", as metres about a place: least and largest x, least and largest y.
+std::array<double, 4> box_of(const std::string& geojson, const Geographic& origin) {
+  std::array<double, 4> box{1e9, -1e9, 1e9, -1e9};
+  std::istringstream in(geojson.substr(geojson.find("\"coordinates\"") + 14));
+  for (char c = 0; in.get(c) && c != '}';) {
+    if (c != '[' || (in >> std::ws).peek() == '[') continue;
+    double lon = 0.0;
+    double lat = 0.0;
+    in >> lon >> c >> lat;
+    const Point<Enu> at = to_enu(Geographic{lat, lon}, origin);
+    box = {std::min(box[0], at.x), std::max(box[1], at.x), std::min(box[2], at.y), std::max(box[3], at.y)};
+  }
+  return box;
+}
+
+// Beams of a hull that leans 30 degrees to port, where they look: 15 degrees down become 45. The surface of the school, which
+// is turned corner by corner, and its outline on maps lie over the same place.
+TEST_F(Export, outlines_on_maps_turn_with_a_ship_that_rolls) {
+  ObservationProduct p = example::empty("obs-0001", 1);
+  example::add_school(p, 1, 0, 0, example::block(1, 1, 2, 20, 8));
+  p.pings[0].roll_deg = -30.0;
+  Recipe recipe;
+  recipe.navigation.beams_stabilised = false;
+  p.recipe_json = recipe_text(recipe);
+  ASSERT_TRUE(write_product(p, folder_ / "out" / "products" / "obs-0001.nc"));
+  ASSERT_TRUE(run("geojson"));
+  const auto ply = run("ply");
+  ASSERT_TRUE(ply) << to_line(ply.error());
+  std::array<double, 4> surface{1e9, -1e9, 1e9, -1e9};
+  for (const auto& [x, y, z] : corners_of(ply->files.at(0))) {
+    const double e = static_cast<double>(x);
+    const double n = static_cast<double>(y);
+    surface = {std::min(surface[0], e), std::max(surface[1], e), std::min(surface[2], n), std::max(surface[3], n)};
+  }
+  for (const char* layer : {"school_outlines.geojson", "schools.geojson"}) {
+    const auto text = read_file(folder_ / "geojson" / layer);
+    ASSERT_TRUE(text) << to_line(text.error());
+    const auto outline = box_of(*text, p.pings[0].transducer);
+    for (std::size_t i = 0; i < outline.size(); ++i) EXPECT_NEAR(outline[i], surface[i], 0.2) << layer << " " << i;
+  }
+  EXPECT_NEAR(surface[0], -54.0 * std::cos(rad_from_deg(40.0)), 0.1) << "samples 20 .. 27 end at 54 m";
 }
 
 }  // namespace

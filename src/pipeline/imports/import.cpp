@@ -125,7 +125,8 @@ ImportedSchool& Imported::school(const std::string& key, std::size_t observation
 
 std::span<const ImportFormat> import_formats() { return kFormats; }
 
-Result<void> import_file(const std::filesystem::path& file, const ImportPlace& place, Imported& imported) {
+Result<void> import_file(const std::filesystem::path& file, const ImportPlace& place, Imported& imported,
+                         const Work& work) {
   const auto format =
       std::ranges::find_if(kFormats, [&](const ImportFormat& one) { return has_ending(file, one.ending); });
   if (format == kFormats.end()) {
@@ -137,7 +138,7 @@ Result<void> import_file(const std::filesystem::path& file, const ImportPlace& p
   }
   const auto text = read_file(file, kMostBytes);
   if (!text) return pass_on(text);
-  return format->read(*text, file.string(), place, imported);
+  return format->read(*text, file.string(), place, imported, work);
 }
 
 Result<SchoolLines> school_lines(const ImportedSchool& school, const CommandContext& context, const ImportedBy& by,

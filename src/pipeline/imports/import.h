@@ -33,11 +33,11 @@ struct BeamSpan {
 /// Where what is read belongs, and what a file does not say itself.
 struct ImportPlace {
   const SurveyFiles* survey = nullptr;
-  std::vector<std::size_t> observations;         ///< in survey->observations, each with a grid
-  std::optional<int> fan;                        ///< of regions that do not name one
-  std::optional<BeamSpan> beams;                 ///< the same; empty = all of the fan
-  LsssNumbering lsss = LsssNumbering::from_one;  ///< of masks of LSSS
-  std::size_t most_runs = 10'000'000;  ///< of a file's regions, in all pings: a short text can claim any number
+  std::vector<std::size_t> observations;  ///< in survey->observations, each with a grid
+  std::optional<int> fan;                 ///< of regions that do not name one
+  std::optional<BeamSpan> beams;          ///< the same; empty = all of the fan
+  std::optional<LsssNumbering> lsss;      ///< of masks of LSSS; empty = as their file tells, else from one
+  std::size_t most_runs = 10'000'000;     ///< of a file's regions, in all pings: a short text can claim any number
 };
 /// observation  its name; empty = all of the sounder that comes first in the survey and has a grid
 /// errors       usage: there is none of that name, or none with a grid
@@ -68,15 +68,17 @@ struct Imported {
 struct ImportFormat {
   std::string_view ending;  ///< ".evr"
   std::string_view text;    ///< what it is
-  /// errors  format, unsupported, usage
-  Result<void> (*read)(const std::string& text, const std::string& file, const ImportPlace& place, Imported& imported);
+  /// errors  format, unsupported, usage, cancelled
+  Result<void> (*read)(const std::string& text, const std::string& file, const ImportPlace& place, Imported& imported,
+                       const Work& work);
 };
 [[nodiscard]] std::span<const ImportFormat> import_formats();
 
 /// Adds what a file says.
 /// file    at most 256 MB
 /// errors  usage: no such ending; not_found, io, format; as the format's
-[[nodiscard]] Result<void> import_file(const std::filesystem::path& file, const ImportPlace& place, Imported& imported);
+[[nodiscard]] Result<void> import_file(const std::filesystem::path& file, const ImportPlace& place, Imported& imported,
+                                       const Work& work);
 
 /// Who imports, and when.
 struct ImportedBy {

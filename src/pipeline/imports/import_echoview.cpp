@@ -139,10 +139,11 @@ class RegionCells {
 /// Reads the regions of one file.
 class Regions {
  public:
-  Regions(const std::string& file, const ImportPlace& place, Imported& imported)
-      : file_(file), place_(place), imported_(imported) {}
+  Regions(const std::string& file, const ImportPlace& place, Imported& imported, const Work& work)
+      : file_(file), place_(place), imported_(imported), work_(work) {}
 
   Result<void> add(const EchoviewRegion& region) {
+    if (work_.cancelled()) return stop();
     switch (region.type) {
       case EchoviewType::analysis:
       case EchoviewType::fish_track:
@@ -161,6 +162,7 @@ class Regions {
   }
 
  private:
+  [[nodiscard]] static tl::unexpected<Error> stop() { return fail(ErrorCode::cancelled, "stopped on request"); }
   [[nodiscard]] std::string at(const EchoviewRegion& region, std::string_view text) const {
     return fmt::format("line {}: region {}: {}", region.line, printable(region.name), text);
   }
@@ -183,7 +185,7 @@ class Regions {
   }
 
   Result<void> add_school(const EchoviewRegion& region) {
-    const auto told = cells_of(region, file_);
+    const auto told = cells_of(region, file_, &work_);
     if (!told) return pass_on(told);
     const bool ours = !told->pings.empty();
     bool empty = true;
@@ -194,6 +196,7 @@ class Regions {
       if (!cells) return fail(cells.error().code, at(region, cells.error().text), {file_});
       ImportedSchool school;
       for (std::int64_t ping = pings.first; ping < pings.end; ++ping) {
+        if (work_.cancelled()) return stop();
         auto runs = cells->in_ping(ping);
         runs_ += runs.size();
         if (runs_ > place_.most_runs) {
@@ -231,7 +234,7 @@ class Regions {
 
   void add_mark(const EchoviewRegion& region) {
     const TimeNs time = region.corners.front().time;
-    const auto told = cells_of(region, file_);
+    const auto told = cells_of(region, file_, &work_);
     std::string text = region.name;
     if (told && !told->words.empty()) text += (text.empty() ? "" : ": ") + told->words;
     for (const std::size_t index : place_.observations) {
@@ -266,10 +269,10 @@ class Regions {
   }
 
   /// Whether the region holds every sample of the pings.
-  [[nodiscard]] static bool covers(const EchoviewRegion& region, const ObservationFiles& one, const PingSpan& pings) {
+  [[nodiscard]] bool covers(const EchoviewRegion& region, const ObservationFiles& one, const PingSpan& pings) const {
     const double near_m = std::max(0.0, one.range.range_m(0));
     const double far_m = one.range.range_m(one.range.count - 1);
-    for (std::int64_t ping = pings.first; ping < pings.end; ++ping) {
+    for (std::int64_t ping = pings.first; ping < pings.end && !work_.cancelled(); ++ping) {
       const TimeNs time = rounded(one.navigation[static_cast<std::size_t>(ping)].time);
       const bool whole = std::ranges::any_of(depths_at(region.corners, time), [&](const DepthSpan& depths) {
         return depths.first_m <= near_m && depths.last_m >= far_m;
@@ -282,19 +285,22 @@ class Regions {
   const std::string& file_;
   const ImportPlace& place_;
   Imported& imported_;
+  const Work& work_;
   std::size_t runs_ = 0;  ///< of schools so far
 };
 
 }  // namespace
 
-Result<void> import_evr(const std::string& text, const std::string& file, const ImportPlace& place,
-                        Imported& imported) {
-  const auto regions = parse_evr(text, file);
+Result<void> import_evr(const std::string& text, const std::string& file, const ImportPlace& place, Imported& imported,
+                        const Work& work) {
+  const auto regions = parse_evr(text, file, &work);
   if (!regions) return pass_on(regions);
-  Regions reader(file, place, imported);
+  Regions reader(file, place, imported, work);
   for (const EchoviewRegion& region : *regions) {
     if (auto added = reader.add(region); !added) return added;
   }
+  // What was read of the last one may be a part of it.
+  if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
   return {};
 }
 

@@ -13,8 +13,8 @@ namespace sonar {
 /// notes name, else `place`: the samples inside the polygon. Where notes tell the cells of a ping (cells_of()), those of them
 /// inside the polygon, and all of the polygon nearer or farther than any of them; regions whose notes do so and that have one
 /// name are one school, of several files too. Markers (2) are marks; bad data (0) over the whole range, bad pings.
-/// errors  format, unsupported: as parse_evr(), cells_of(); usage: no fan is named, or one that is not there
+/// errors  format, unsupported: as parse_evr(), cells_of(); usage: no fan is named, or one that is not there; cancelled
 [[nodiscard]] Result<void> import_evr(const std::string& text, const std::string& file, const ImportPlace& place,
-                                      Imported& imported);
+                                      Imported& imported, const Work& work);
 
 }  // namespace sonar

@@ -11,16 +11,16 @@
 
 namespace sonar {
 
-Result<void> import_lsss(const std::string& text, const std::string& file, const ImportPlace& place,
-                         Imported& imported) {
-  const auto schools = parse_lsss_work(text, file, place.lsss);
+Result<void> import_lsss(const std::string& text, const std::string& file, const ImportPlace& place, Imported& imported,
+                         const Work& work) {
+  const auto schools = parse_lsss_work(text, file, place.lsss, &work);
   if (!schools) return pass_on(schools);
   std::vector<std::size_t> pings_placed(schools->size(), 0);
   for (const std::size_t index : place.observations) {
     const ObservationFiles& observation = place.survey->observations[index];
     std::vector<TimeNs> times;
     for (std::size_t i = 0; i < observation.pings.size(); ++i) times.push_back(place.survey->ping_time(observation, i));
-    const auto cells = place_lsss(*schools, *observation.grid, observation.sample_count, times, file);
+    const auto cells = place_lsss(*schools, *observation.grid, observation.sample_count, times, file, &work);
     if (!cells) return pass_on(cells);
     for (const LsssCells& one : *cells) {
       ImportedSchool& school = imported.school(fmt::format("{}: {}", file, one.school), index);

@@ -97,13 +97,13 @@ class Import : public testing::Test {
 
   Imported read(const std::string& text) {
     Imported imported;
-    const auto done = import_evr(text, "a.evr", place_, imported);
+    const auto done = import_evr(text, "a.evr", place_, imported, work_);
     EXPECT_TRUE(done.has_value()) << (done ? "" : to_line(done.error()));
     return imported;
   }
   std::string refused(const std::string& text) {
     Imported imported;
-    const auto done = import_evr(text, "a.evr", place_, imported);
+    const auto done = import_evr(text, "a.evr", place_, imported, work_);
     return done ? "" : to_line(done.error());
   }
   /// Schools that the journal of what was read makes, upon these.
@@ -120,6 +120,7 @@ class Import : public testing::Test {
   SmallSea sea_;
   SurveyFiles survey_;
   ImportPlace place_;
+  Work work_{1};
 };
 
 /// Two schools of ragged form, with a hole, in several fans; the first is away in ping 4.
@@ -160,7 +161,7 @@ TEST_F(Import, WhatWasExportedComesBackVoxelByVoxel) {
   for (int fan = 0; fan < kFans; ++fan) {
     const std::string text = evr_text(product, fan);
     if (text.empty()) continue;
-    ASSERT_TRUE(import_evr(text, "a.evr", place_, all).has_value());
+    ASSERT_TRUE(import_evr(text, "a.evr", place_, all, work_).has_value());
     for (const auto& school : carried_out(read(text)).schools) {
       const bool herring = school->masks.decided.species == "herring";
       Voxels in_fan;
@@ -179,6 +180,18 @@ TEST_F(Import, WhatWasExportedComesBackVoxelByVoxel) {
   EXPECT_THAT(state.notes, IsEmpty());
 }
 
+TEST_F(Import, IsStopped) {
+  work_.cancel();
+  Imported imported;
+  const auto code_of = [](const Result<void>& done) { return done ? std::optional<ErrorCode>() : done.error().code; };
+  EXPECT_EQ(code_of(import_evr(evr({}), "a.evr", place_, imported, work_)), ErrorCode::cancelled);
+  ObservationProduct product = ragged(sea_.grid, sea_.sector.range());
+  product.grid->sample_count.assign(kFans, kSamples);
+  const std::string masks = lsss_work_text(product, kOffset, LsssNumbering::from_one);
+  EXPECT_EQ(code_of(import_lsss(masks, "a.work", place_, imported, work_)), ErrorCode::cancelled);
+  EXPECT_TRUE(imported.schools.empty());
+}
+
 // In both numberings, and without what the recipe added to the times; a ping that the survey has not is told.
 TEST_F(Import, MasksOfLsssComeBackVoxelByVoxel) {
   ObservationProduct product = ragged(sea_.grid, sea_.sector.range());
@@ -189,7 +202,7 @@ TEST_F(Import, MasksOfLsssComeBackVoxelByVoxel) {
   for (const LsssNumbering numbering : {LsssNumbering::from_one, LsssNumbering::from_zero}) {
     place_.lsss = numbering;
     Imported imported;
-    const auto done = import_lsss(lsss_work_text(product, kOffset, numbering), "a.work", place_, imported);
+    const auto done = import_lsss(lsss_work_text(product, kOffset, numbering), "a.work", place_, imported, work_);
     ASSERT_TRUE(done.has_value()) << to_line(done.error());
     EXPECT_THAT(imported.left_out, ElementsAre("a.work: school 2: 1 ping that the survey does not have"));
     const JournalState state = carried_out(imported);
@@ -375,10 +388,10 @@ TEST_F(Import, TheJournalIsReadBack) {
 
 TEST_F(Import, FilesAreKnownByTheirEndings) {
   Imported imported;
-  const auto unknown = import_file("regions.txt", place_, imported);
+  const auto unknown = import_file("regions.txt", place_, imported, work_);
   ASSERT_FALSE(unknown.has_value());
   EXPECT_THAT(to_line(unknown.error()), HasSubstr("regions.txt: expected a name that ends in .evr"));
-  const auto gone = import_file("not-there.EVR", place_, imported);
+  const auto gone = import_file("not-there.EVR", place_, imported, work_);
   ASSERT_FALSE(gone.has_value());
   EXPECT_EQ(gone.error().code, ErrorCode::not_found);
   const auto nowhere = import_place(survey_, "obs-0002");

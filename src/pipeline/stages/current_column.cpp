@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/stages/current_column.h"
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "school/measure/water_current.h"
 
@@ -19,14 +20,12 @@ std::vector<CurrentAt> current_column(const Recipe& recipe, const PingNavigation
   return out;
 }
 
-double fastest_current_mps(const CurrentProfiles& profiles) {
-  double square = 0.0;
+double longest_arrow_mps(const CurrentProfiles& profiles) {
+  std::vector<double> speeds_mps;
   for (const CurrentProfile& one : profiles) {
-    for (const CurrentAt& bin : one.bins) {
-      square = std::max(square, bin.east_mps * bin.east_mps + bin.north_mps * bin.north_mps);
-    }
+    for (const CurrentAt& bin : one.bins) speeds_mps.push_back(std::hypot(bin.east_mps, bin.north_mps));
   }
-  return std::sqrt(square);
+  return longest_arrow_mps(std::move(speeds_mps));
 }
 
 }  // namespace sonar

@@ -15,7 +15,7 @@ namespace sonar {
 /// result    depths of which no profile tells are left out; empty where the ship's position is unknown
 [[nodiscard]] std::vector<CurrentAt> current_column(const Recipe& recipe, const PingNavigation& ship,
                                                     std::span<const double> depths_m);
-/// Of all profiles, m/s; 0 without any.
-[[nodiscard]] double fastest_current_mps(const CurrentProfiles& profiles);
+/// What arrows of any of the profiles are scaled to (longest_arrow_mps()).
+[[nodiscard]] double longest_arrow_mps(const CurrentProfiles& profiles);
 
 }  // namespace sonar

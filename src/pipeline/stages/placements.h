@@ -31,8 +31,8 @@ class ProductPlacements {
   /// A recipe that cannot be read is the default.
   explicit ProductPlacements(const ObservationProduct& product);
   [[nodiscard]] Placement of(const PingNavigation& ping) const { return placement_under(recipe_, ping, rays_); }
-  /// Null where nothing bends.
-  [[nodiscard]] const std::shared_ptr<const Refraction>& rays() const { return rays_; }
+  /// The same, for whoever takes a function.
+  [[nodiscard]] Placement operator()(const PingNavigation& ping) const { return of(ping); }
 
  private:
   Recipe recipe_;

@@ -196,7 +196,7 @@ Result<void> write_map(const fs::path& out, const Survey& survey, const std::vec
     // Rows come from the merge, which knows what continues what; masks from the file.
     ObservationProduct shown = survey.observations[i];
     shown.masks = std::move(product->masks);
-    if (auto added = map->add(shown, ProductPlacements(shown).rays()); !added) return added;
+    if (auto added = map->add(shown, ProductPlacements(shown)); !added) return added;
     work.progress("map", static_cast<std::int64_t>(i) + 1, static_cast<std::int64_t>(files.size()));
   }
   return map->finish();

@@ -73,6 +73,8 @@ void SurveyMapPainter::take_products(const SurveyMapWish& wish) {
     light.school_pings = products_[i]->school_pings;
     light.source = products_[i]->source;
     light.cut_after = products_[i]->cut_after;
+    // Its recipe may turn the beams with the ship.
+    if (light.recipe_json != products_[i]->recipe_json) swept_known_[i] = false;
     light.recipe_json = products_[i]->recipe_json;
   }
   take_currents();

@@ -118,7 +118,7 @@ Result<ObservationMapBase> observation_map_base(const ObservationProduct& produc
     if (!n.has_position()) continue;
     shown.push_back(n.transducer);
     if (!sector || !placed(n)) continue;
-    rings[i] = footprint(*product.grid, *sector, rad_from_deg(n.heading_deg));
+    rings[i] = footprint(*product.grid, *sector, n.placement());
     for (const PlanePoint& p : rings[i]) shown.push_back(to_geographic(Point<Enu>{p.x, p.y, 0.0}, n.transducer));
   }
   const auto extent = extent_of(shown);

@@ -21,10 +21,11 @@ constexpr double kLongest_em = 3.0;
 constexpr double kApart_em = 3.5;  ///< between the places of profiles
 constexpr double kHead = 0.3;      ///< of an arrow's length, at the most kHead_em
 constexpr double kHead_em = 0.6;
-constexpr double kLeast_mps = 0.005;  ///< slower water has no direction
+constexpr double kSecondHead = 0.7;  ///< of a head's length behind the first
 constexpr double kDepthGap_m = 20.0;
 
-std::vector<double> shown_depths(const CurrentProfiles& profiles) {
+/// Round in the unit, so that what is told is what is looked up, and no two are told alike; m.
+std::vector<double> shown_depths(const CurrentProfiles& profiles, const Unit& unit) {
   std::vector<double> all;
   for (const CurrentProfile& one : profiles) {
     for (const CurrentAt& bin : one.bins) all.push_back(bin.depth_m);
@@ -33,7 +34,8 @@ std::vector<double> shown_depths(const CurrentProfiles& profiles) {
   std::sort(all.begin(), all.end());
   std::vector<double> out;
   for (const double share : {0.1, 0.5, 0.9}) {
-    const double depth_m = std::round(all[static_cast<std::size_t>(share * static_cast<double>(all.size() - 1))]);
+    const auto rank = static_cast<std::size_t>(std::lround(share * static_cast<double>(all.size() - 1)));
+    const double depth_m = std::round(unit.of(all[rank])) * unit.si;
     if (out.empty() || depth_m > out.back()) out.push_back(depth_m);
   }
   return out;
@@ -50,22 +52,8 @@ struct Placed {
   const CurrentProfile* profile;
 };
 
-/// Far enough from each other to be read.
-std::vector<Placed> placed(const SurveyMapDrawing& d, const CurrentProfiles& profiles) {
-  std::vector<Placed> out;
-  for (const CurrentProfile& one : profiles) {
-    if (!std::isfinite(one.place.latitude_deg) || !std::isfinite(one.place.longitude_deg)) continue;
-    const auto at = d.map.at(one.place);
-    if (!at || !inside(d.map.place, *at)) continue;
-    const bool near = std::any_of(out.begin(), out.end(), [&](const Placed& other) {
-      return std::hypot(other.at.x - at->x, other.at.y - at->y) < kApart_em * d.em;
-    });
-    if (!near) out.push_back({*at, &one});
-  }
-  return out;
-}
-
-PathItem arrow(PixelPoint from, PixelPoint to, double em, Stroke stroke) {
+/// cut  the water is faster than the arrow is long: two heads
+PathItem arrow(PixelPoint from, PixelPoint to, bool cut, double em, Stroke stroke) {
   const double length = std::hypot(to.x - from.x, to.y - from.y);
   const double head = std::min(kHead * length, kHead_em * em) / length;
   const double x = (from.x - to.x) * head;
@@ -73,8 +61,12 @@ PathItem arrow(PixelPoint from, PixelPoint to, double em, Stroke stroke) {
   PathItem item;
   item.stroke = std::move(stroke);
   item.parts.push_back({{from, to}, false});
-  item.parts.push_back(
-      {{{to.x + x - 0.6 * y, to.y + y + 0.6 * x}, to, {to.x + x + 0.6 * y, to.y + y - 0.6 * x}}, false});
+  const auto add_head = [&](PixelPoint at) {
+    item.parts.push_back(
+        {{{at.x + x - 0.6 * y, at.y + y + 0.6 * x}, at, {at.x + x + 0.6 * y, at.y + y - 0.6 * x}}, false});
+  };
+  add_head(to);
+  if (cut) add_head({to.x + kSecondHead * x, to.y + kSecondHead * y});
   return item;
 }
 
@@ -93,31 +85,70 @@ std::optional<PixelPoint> tip(const SurveyMapDrawing& d, const Placed& from, con
 
 double speed(const CurrentAt& current) { return std::hypot(current.east_mps, current.north_mps); }
 
+/// Empty where nothing is told, or the water has no direction.
+std::optional<CurrentAt> current_at_depth(const CurrentProfile& profile, double depth_m) {
+  const auto current = current_in(profile, depth_m, kDepthGap_m);
+  return current && speed(*current) >= kLeastCurrent_mps ? current : std::nullopt;
+}
+
+std::vector<CurrentAt> currents_at(const CurrentProfile& profile, const std::vector<double>& depths) {
+  std::vector<CurrentAt> out;
+  for (const double depth_m : depths) {
+    if (const auto current = current_at_depth(profile, depth_m)) out.push_back(*current);
+  }
+  return out;
+}
+
+/// Far enough from each other to be read, and where arrows of the full length stay inside the map: a part of an arrow would
+/// tell a slower current, and some of a place's arrows another one.
+std::vector<Placed> placed(const SurveyMapDrawing& d, const CurrentProfiles& profiles,
+                           const std::vector<double>& depths) {
+  std::vector<Placed> out;
+  for (const CurrentProfile& one : profiles) {
+    if (!std::isfinite(one.place.latitude_deg) || !std::isfinite(one.place.longitude_deg)) continue;
+    const auto at = d.map.at(one.place);
+    if (!at || !inside(d.map.place, *at)) continue;
+    const bool near = std::any_of(out.begin(), out.end(), [&](const Placed& other) {
+      return std::hypot(other.at.x - at->x, other.at.y - at->y) < kApart_em * d.em;
+    });
+    if (near) continue;
+    const Placed here{*at, &one};
+    const std::vector<CurrentAt> currents = currents_at(one, depths);
+    const bool whole = std::all_of(currents.begin(), currents.end(), [&](const CurrentAt& current) {
+      const auto end = tip(d, here, current, kLongest_em * d.em);
+      return end && inside(d.map.place, *end);
+    });
+    if (whole) out.push_back(here);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string add_currents(const SurveyMapDrawing& d, const CurrentProfiles& profiles) {
-  const std::vector<Placed> places = placed(d, profiles);
-  const std::vector<double> depths = shown_depths(profiles);
-  double fastest = 0.0;
-  for (const Placed& place : places) {
-    for (const double depth_m : depths) {
-      if (const auto current = current_in(*place.profile, depth_m, kDepthGap_m))
-        fastest = std::max(fastest, speed(*current));
-    }
-  }
-  if (fastest < kLeast_mps) return {};
   const Unit unit = d.theme.units.length();
+  const std::vector<double> depths = shown_depths(profiles, unit);
+  const std::vector<Placed> places = placed(d, profiles, depths);
+  std::vector<double> speeds_mps;
+  for (const Placed& place : places) {
+    for (const CurrentAt& one : currents_at(*place.profile, depths)) speeds_mps.push_back(speed(one));
+  }
+  const double longest_mps = longest_arrow_mps(std::move(speeds_mps));
   std::vector<std::string> told;
+  bool any_cut = false;
   for (std::size_t k = 0; k < depths.size(); ++k) {
     const Rgba8 colour = colour_of(k, depths.size());
     std::vector<PixelPoint> ends;
     for (const Placed& place : places) {
-      const auto current = current_in(*place.profile, depths[k], kDepthGap_m);
-      if (!current || speed(*current) < kLeast_mps) continue;
-      const auto end = tip(d, place, *current, kLongest_em * d.em * speed(*current) / fastest);
+      const auto current = current_at_depth(*place.profile, depths[k]);
+      if (!current) continue;
+      const bool cut = speed(*current) > longest_mps;
+      const double length_px = kLongest_em * d.em * (cut ? 1.0 : speed(*current) / longest_mps);
+      const auto end = tip(d, place, *current, length_px);
       if (!end) continue;
-      d.frame.items.emplace_back(arrow(place.at, *end, d.em, {colour, 1.4 * d.theme.line_px, {}}));
+      d.frame.items.emplace_back(arrow(place.at, *end, cut, d.em, {colour, 1.4 * d.theme.line_px, {}}));
       ends.push_back(*end);
+      any_cut = any_cut || cut;
     }
     if (ends.empty()) continue;
     told.push_back(fmt::format("{:.0f}", unit.of(depths[k])));
@@ -128,9 +159,11 @@ std::string add_currents(const SurveyMapDrawing& d, const CurrentProfiles& profi
     name.halo = d.theme.halo;
     d.frame.items.emplace_back(std::move(name));
   }
-  return told.empty() ? std::string{}
-                      : fmt::format("Arrows: current at {} {} depth, a colour for each; the longest is {}",
-                                    fmt::join(told, ", "), unit.name, quantity_text(fastest, 2, d.theme.units.speed()));
+  return told.empty()
+             ? std::string{}
+             : fmt::format("Arrows: current at {} {} depth, a colour for each; the longest is {}{}",
+                           fmt::join(told, ", "), unit.name, quantity_text(longest_mps, 2, d.theme.units.speed()),
+                           any_cut ? "; two heads: faster" : "");
 }
 
 }  // namespace sonar

@@ -15,9 +15,9 @@
 namespace sonar {
 namespace {
 
-constexpr double kLongest = 0.25;     ///< of the range
-constexpr double kHead = 0.3;         ///< of an arrow's length
-constexpr double kLeast_mps = 0.005;  ///< slower water has no direction
+constexpr double kLongest = 0.25;    ///< of the range
+constexpr double kHead = 0.3;        ///< of an arrow's length
+constexpr double kSecondHead = 0.6;  ///< of a head's length behind the first
 constexpr int kMostArrows = 15;
 
 }  // namespace
@@ -35,18 +35,22 @@ std::vector<double> current_depths(const Sector& sector, double transducer_depth
 }
 
 std::optional<CurrentScale> current_scale(const Sector& sector, const CurrentColumn& column, const Units& units) {
-  if (!(column.fastest_mps >= kLeast_mps)) return std::nullopt;
-  const double metres_per_mps = round_below(kLongest * far_range_m(sector) / column.fastest_mps, {});
-  const double speed_mps = round_below(column.fastest_mps, units.speed());
+  if (!(column.longest_mps >= kLeastCurrent_mps)) return std::nullopt;
+  const double metres_per_mps = round_below(kLongest * far_range_m(sector) / column.longest_mps, {});
+  const double speed_mps = round_below(column.longest_mps, units.speed());
   return CurrentScale{speed_mps, speed_mps * metres_per_mps};
 }
 
 std::string current_words(const Sector& sector, const CurrentColumn& column, const std::optional<double>& heading_deg,
                           const Units& units) {
-  if (current_arrows(sector, column, heading_deg, 0.0).empty()) return {};
+  const auto arrows = current_arrows(sector, column, heading_deg, 0.0);
+  if (arrows.empty()) return {};
+  const bool cut = std::any_of(arrows.begin(), arrows.end(), [](const CurrentArrow& arrow) { return arrow.cut; });
   const auto scale = current_scale(sector, column, units);
   return fmt::format("current below the ship: {} is {} long", round_text(scale->speed_mps, units.speed()),
-                     round_text(scale->length_m, units.length()));
+                     round_text(scale->length_m, units.length())) +
+         (cut ? fmt::format("; two heads: above {}", quantity_text(column.longest_mps, 2, units.speed()))
+              : std::string());
 }
 
 std::vector<CurrentArrow> current_arrows(const Sector& sector, const CurrentColumn& column,
@@ -56,10 +60,13 @@ std::vector<CurrentArrow> current_arrows(const Sector& sector, const CurrentColu
   if (!scale || !heading_deg) return out;
   const double metres_per_mps = scale->length_m / scale->speed_mps;
   for (const CurrentAt& current : column.at) {
-    if (std::hypot(current.east_mps, current.north_mps) < kLeast_mps) continue;
+    const double speed_mps = std::hypot(current.east_mps, current.north_mps);
+    if (speed_mps < kLeastCurrent_mps) continue;
+    const bool cut = speed_mps > column.longest_mps;
+    const double metres = cut ? metres_per_mps * column.longest_mps / speed_mps : metres_per_mps;
     const Point<Sonar> from{0.0, 0.0, current.depth_m - transducer_depth_m};
-    const Point<Enu> way{current.east_mps * metres_per_mps, current.north_mps * metres_per_mps, 0.0};
-    out.push_back({from, from + to_sonar(way, rad_from_deg(*heading_deg)), current.depth_m});
+    const Point<Enu> way{current.east_mps * metres, current.north_mps * metres, 0.0};
+    out.push_back({from, from + to_sonar(way, rad_from_deg(*heading_deg)), current.depth_m, cut});
   }
   return out;
 }
@@ -80,7 +87,12 @@ void add_current_arrows(ContextScene& scene, const std::vector<CurrentArrow>& ar
                                              {0.5 * back.y, -0.5 * back.x, 0.0},
                                              {0.0, 0.0, 0.5 * norm(back)},
                                              {0.0, 0.0, -0.5 * norm(back)}}};
-    for (const Point<Sonar>& side : sides) scene.lines.push_back({arrow.to, arrow.to + back + side, colour, width_px});
+    for (const Point<Sonar>& side : sides) {
+      scene.lines.push_back({arrow.to, arrow.to + back + side, colour, width_px});
+      if (!arrow.cut) continue;
+      const Point<Sonar> behind = arrow.to + back * kSecondHead;
+      scene.lines.push_back({behind, behind + back + side, colour, width_px});
+    }
   }
 }
 

@@ -18,7 +18,7 @@ struct ContextScene;
 /// The water's velocity below the ship at one time.
 struct CurrentColumn {
   std::vector<CurrentAt> at;  ///< by rising depth below the sea surface; depths of which nothing is told are left out
-  double fastest_mps = 0.0;   ///< of all that is known: arrows are as long for one speed in every ping
+  double longest_mps = 0.0;   ///< of the longest arrows, in every ping: faster water is drawn cut at it
   friend bool operator==(const CurrentColumn&, const CurrentColumn&) = default;
 };
 
@@ -27,7 +27,7 @@ struct CurrentColumn {
 [[nodiscard]] std::vector<double> current_depths(const Sector& sector, double transducer_depth_m,
                                                  const Units& units = {});
 
-/// How long a speed is drawn: the fastest no longer than a quarter of the range. The speed is a whole one, two or five of the
+/// How long a speed is drawn: the longest arrows no longer than a quarter of the range. The speed is a whole one, two or five of the
 /// unit of speeds, and so are the metres of 1 m/s.
 struct CurrentScale {
   double speed_mps = 0.0;
@@ -36,7 +36,8 @@ struct CurrentScale {
 /// Empty where nothing moves.
 [[nodiscard]] std::optional<CurrentScale> current_scale(const Sector& sector, const CurrentColumn& column,
                                                         const Units& units = {});
-/// For the legend: "current below the ship: 0.2 m/s is 50 m long"; empty where no arrow is drawn.
+/// For the legend: "current below the ship: 0.2 m/s is 50 m long", and what two heads mean where an arrow has them; empty
+/// where no arrow is drawn.
 [[nodiscard]] std::string current_words(const Sector& sector, const CurrentColumn& column,
                                         const std::optional<double>& heading_deg, const Units& units = {});
 
@@ -44,6 +45,7 @@ struct CurrentArrow {
   Point<Sonar> from;  ///< straight below the ship, at the depth
   Point<Sonar> to;    ///< where the water flows to, level with it
   double depth_m = 0.0;
+  bool cut = false;  ///< the water is faster than the arrow is long: drawn with two heads
 };
 /// Turned into the ship's frame by its true heading; none where that is unknown, and none of water that has no direction.
 [[nodiscard]] std::vector<CurrentArrow> current_arrows(const Sector& sector, const CurrentColumn& column,

@@ -79,6 +79,44 @@ TEST(CurrentArrows, TheLegendTellsTheScaleThatTheyAreDrawnTo) {
   }
 }
 
+// Nine of ten speeds are 0.1 to 0.3 m/s, so that 0.3 is what nine tenths keep below, half as much again 0.45: a wild 6 m/s is
+// no reason to draw them twenty times shorter. Of nine none is called wild. Speeds whose two components vary normally
+// (Rayleigh): nine tenths lie below sqrt(2 ln 10) of a component's deviation, and above 1.5 times that 10^-2.25 = 1 in 178.
+TEST(CurrentArrows, OneWildBinDoesNotShrinkTheOthers) {
+  EXPECT_NEAR(longest_arrow_mps({0.3, 0.1, 6.0, 0.3, 0.2, 0.1, 0.3, 0.2, 0.1, 0.3}), 0.45, 1e-12);
+  EXPECT_EQ(longest_arrow_mps({0.3, 0.1, 6.0, 0.3, 0.2, 0.1, 0.3, 0.2, 0.1}), 6.0);
+  EXPECT_EQ(longest_arrow_mps({0.3, 0.1, 0.4, 0.3, 0.2, 0.1, 0.3, 0.2, 0.1, 0.3}), 0.4) << "none is wild";
+  EXPECT_EQ(longest_arrow_mps({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.3}), 0.3);
+  EXPECT_EQ(longest_arrow_mps({}), 0.0);
+  std::vector<double> rayleigh;
+  for (int i = 0; i < 10'000; ++i) rayleigh.push_back(std::sqrt(-2.0 * std::log((i + 0.5) / 10'000.0)));
+  const double longest = longest_arrow_mps(rayleigh);
+  EXPECT_EQ(std::count_if(rayleigh.begin(), rayleigh.end(), [&](double speed) { return speed > longest; }), 56);
+}
+
+// A quarter of 200 m over 0.4 m/s, down to a round one: 100 m for 1 m/s, 40 m for 0.4. At 6 m/s it is as long, with a second
+// head of four strokes, and the legend says so.
+TEST(CurrentArrows, FasterThanTheLongestIsCutAndTold) {
+  const Sector sector = slice_example::hand_sector();
+  CurrentColumn column = two_layers();
+  const auto strokes = [&] {
+    ContextScene scene;
+    add_current_arrows(scene, current_arrows(sector, column, 0.0, kTransducer_m), kTransducer_m, light_theme(kSize));
+    return scene.lines.size();
+  };
+  const std::size_t before = strokes();
+  column.at[0].north_mps = 6.0;
+  const auto arrows = current_arrows(sector, column, 0.0, kTransducer_m);
+  ASSERT_EQ(arrows.size(), 2U);
+  expect_way(arrows[0], 40.0, 0.0);
+  EXPECT_TRUE(arrows[0].cut);
+  expect_way(arrows[1], 0.0, 20.0);
+  EXPECT_FALSE(arrows[1].cut);
+  EXPECT_EQ(strokes(), before + 4);
+  EXPECT_EQ(current_words(sector, column, 0.0),
+            "current below the ship: 0.2 m/s is 20 m long; two heads: above 0.40 m/s");
+}
+
 // Deepest is the fan at -70 degrees: 200 sin 70 + 7 = 194.9 m.
 TEST(CurrentArrows, StandAtEvenDepthsDownToTheDeepestPlace) {
   EXPECT_EQ(current_depths(slice_example::hand_sector(), kTransducer_m),
