@@ -76,8 +76,9 @@ class School {
       if (repeats == nullptr) continue;
       costs.measuring += ms_since(start);
       const auto again = std::clock();
-      repeats->push_back(measure_repeats(input, mask, MedianParams{}, kTolerance_db, random_(),
-                                         static_cast<std::size_t>(pings_), measure_, errors_));
+      repeats->push_back(measure_repeats(
+          input, mask, MedianParams{}, kTolerance_db, random_(),
+          fadings_of_ping(static_cast<std::size_t>(ping), static_cast<std::size_t>(pings_)), measure_, errors_));
       costs.repeating += ms_since(again);
       ++costs.pings;
     }

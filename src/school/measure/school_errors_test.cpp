@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <random>
 #include <string_view>
 #include <vector>
 
@@ -86,31 +89,51 @@ TEST(SchoolErrors, FadingAndThresholdAddInQuadrature) {
       << "it was not measured again";
 }
 
-// Four pings with four fadings each, -3, -1, 1 and 3 off: the variance of one is 20 / 3, that of their mean a quarter of it.
-// The 16 ways to put them together know it about as well as 10 independent ones.
-TEST(SchoolErrors, PingsShareOutTheFadings) {
-  EXPECT_EQ(fadings_of_ping(1), 16);
-  EXPECT_EQ(fadings_of_ping(2), 8);
-  EXPECT_EQ(fadings_of_ping(40), 4);
+TEST(SchoolErrors, SixPingsSpreadEvenlyAreMeasuredAgain) {
+  EXPECT_EQ(fadings_of_ping(0, 1), 16U);
+  EXPECT_EQ(fadings_of_ping(0, 2), 9U);
+  EXPECT_EQ(fadings_of_ping(1, 2), 9U);
+  std::vector<std::size_t> places;
+  for (std::size_t place = 0; place < 40; ++place) {
+    if (fadings_of_ping(place, 40) == 4) places.push_back(place);
+  }
+  for (std::size_t place = 0; place < 7; ++place) EXPECT_EQ(fadings_of_ping(place, 7) > 0, place != 3) << place;
+  EXPECT_EQ(places, (std::vector<std::size_t>{3, 10, 16, 23, 30, 36}));
+}
+
+/// Told variance of the mean depth of a school whose pings scatter by fadings of 3 and of 1 to both sides of theirs, in any
+/// order.
+double told_variance(std::size_t pings) {
   double variance = 0.0;
-  constexpr int kSchools = 30;
-  for (int school = 0; school < kSchools; ++school) {
-    std::vector<SchoolPingRow> rows(4, row_of(1000.0));
-    std::vector<Repeats> repeats(4, Repeats(6, unchanged(rows.front()).front()));
-    for (std::size_t ping = 0; ping < 4; ++ping) {
-      for (std::size_t k = 0; k < 4; ++k) {
-        // whichever order they were drawn in
-        const auto turn = (k + static_cast<std::size_t>(school) * (ping + 1)) % 4;
-        repeats[ping][k][0] += -3.0F + 2.0F * static_cast<float>(school % 2 == 0 ? turn : 3 - turn);
-      }
-    }
+  constexpr std::size_t kSchools = 30;
+  std::mt19937_64 random(pings);
+  for (std::size_t school = 0; school < kSchools; ++school) {
+    std::vector<SchoolPingRow> rows(pings, row_of(1000.0));
+    std::vector<Repeats> repeats(pings);
     std::vector<const Repeats*> all;
-    for (const Repeats& one : repeats) all.push_back(&one);
+    for (std::size_t ping = 0; ping < pings; ++ping) {
+      rows[ping].depth_m += 10.0 * static_cast<double>(ping % 3);  // it swims: no error of its mean
+      all.push_back(&repeats[ping]);
+      if (fadings_of_ping(ping, pings) == 0) continue;
+      repeats[ping] = unchanged(rows[ping]);
+      repeats[ping].resize(4 + 2);
+      std::array<float, 4> off{-3.0F, -1.0F, 1.0F, 3.0F};
+      std::shuffle(off.begin(), off.end(), random);
+      for (std::size_t k = 0; k < 4; ++k) repeats[ping][k][0] += off[k];
+    }
     ErrorParams params;
     params.sound_speed_percent = params.tilt_deg = 0.0;
     variance += std::pow(error_of(school_errors(rows, all, {}, params), "depth_m"), 2) / kSchools;
   }
-  EXPECT_NEAR(variance / (20.0 / 3.0 / 4.0) / std::pow(2.2622 / 1.95996, 2), 1.0, 0.35);
+  return variance / std::pow(2.1314 / 1.95996, 2);
+}
+
+// The variance of one ping is 20 / 3, that of a mean over n pings the n-th part of it, whether each was measured again or
+// some stand for those beside them.
+TEST(SchoolErrors, PingsThatStandForOthersTellTheErrorOfAllPings) {
+  for (const std::size_t pings : {4U, 6U, 15U, 40U}) {
+    EXPECT_NEAR(told_variance(pings) / (20.0 / 3.0 / static_cast<double>(pings)), 1.0, 0.15) << pings;
+  }
 }
 
 // A school hardly larger than the median's box: what it is measured as again is as loud as it was heard. Its filtered level
@@ -132,7 +155,7 @@ TEST(SchoolErrors, RepeatsHoldAsMuchEchoAsTheSchool) {
   in.threshold_db = -200.0;  // the mask stays as it is
   ErrorParams params;
   params.enabled = true;
-  const Repeats repeats = measure_repeats(in, scene.mask, {}, 10.0, 7, 1, {}, params);
+  const Repeats repeats = measure_repeats(in, scene.mask, {}, 10.0, 7, kFadings, {}, params);
   ASSERT_EQ(repeats.size(), static_cast<std::size_t>(kFadings + 2));
   double mean = 0.0;
   for (std::size_t k = 0; k < kFadings; ++k) mean += static_cast<double>(repeats[k][backscatter_at()]) / kFadings;
@@ -228,7 +251,7 @@ TEST(SchoolErrors, RepeatsOfOneLookScatterAsLooksDo) {
     for (std::size_t i = 0; i < figures.size(); ++i) seen[i].push_back(error_of(values, figures[i]));
     if (look >= kRepeated) continue;
     const Repeats repeats =
-        measure_repeats(in, looks.mask, {}, 10.0, static_cast<std::uint64_t>(look) * 1000, 1, {}, params);
+        measure_repeats(in, looks.mask, {}, 10.0, static_cast<std::uint64_t>(look) * 1000, kFadings, {}, params);
     const std::vector<const Repeats*> all{&repeats};
     const std::vector<SchoolPingRow> rows{row};
     const FigureValues errors = school_errors(rows, all, {}, params);
