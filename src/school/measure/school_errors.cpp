@@ -12,6 +12,7 @@
 
 #include "base/check.h"
 #include "base/units.h"
+#include "school/measure/cell_steps.h"
 #include "school/measure/fading_field.h"
 #include "school/measure/measure.h"
 #include "school/measure/repeat_ping.h"
@@ -19,6 +20,8 @@
 namespace sonar {
 namespace {
 
+/// So many of a ping's repeats are not under other fading: two thresholds and the steps.
+constexpr std::size_t kOthers = 3;
 /// So many ways to put a school together of its pings' fadings: with 16, what they are drawn by adds as much as their number.
 constexpr std::size_t kDraws = 64;
 
@@ -86,13 +89,13 @@ class RepeatedSchool {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       figures_.push_back(figures_of(rows_[i]));
       // They may come from a file that anyone can write.
-      if (repeats[i]->size() >= 2 + 2 && repeats[i]->size() <= kFadings + 2) known.push_back(i);
+      if (repeats[i]->size() >= 2 + kOthers && repeats[i]->size() <= kFadings + kOthers) known.push_back(i);
     }
     std::size_t at = 0;
     for (std::size_t i = 0; i < rows_.size() && !known.empty(); ++i) {
       while (at + 1 < known.size() && known[at] + known[at + 1] < 2 * i) ++at;
       sources_.push_back({known[at], repeats[known[at]]});
-      fadings_ = std::min(fadings_, repeats[known[at]]->size() - 2);
+      fadings_ = std::min(fadings_, repeats[known[at]]->size() - kOthers);
     }
   }
   [[nodiscard]] bool known() const { return !sources_.empty(); }
@@ -100,11 +103,26 @@ class RepeatedSchool {
   [[nodiscard]] std::size_t fadings() const { return fadings_; }
   /// The school under the k-th fading of all its pings.
   [[nodiscard]] FigureValues under_fading(std::size_t k) {
-    return repeated([&](std::size_t ping, std::size_t n) { return turned(k, ping, n - 2); });
+    return repeated([&](std::size_t ping, std::size_t n) { return turned(k, ping, n - kOthers); });
   }
   /// Under the threshold that stands so far from the end of its repeats.
   [[nodiscard]] FigureValues at_threshold(std::size_t from_end) {
     return repeated([&](std::size_t, std::size_t n) { return n - from_end; });
+  }
+
+  /// Variance of a figure that cells let stand still under all fadings though it may move.
+  [[nodiscard]] double hidden_variance(std::size_t figure) const {
+    double square = 0.0;
+    double looks = 0.0;
+    std::size_t last = rows_.size();
+    for (const Source& source : sources_) {
+      const double step = static_cast<double>(source.repeats->back()[figure]);
+      square += step * step / static_cast<double>(sources_.size());
+      if (source.ping != last) looks += static_cast<double>(source.repeats->size() - kOthers);
+      last = source.ping;
+    }
+    const double share = 0.5 / (looks + 1.0);
+    return square * share * (1.0 - share) / static_cast<double>(sources_.size());
   }
 
  private:
@@ -212,6 +230,9 @@ Repeats measure_repeats(const MeasureInput& ping, const PingMask& mask, const Me
     input.threshold_db += step_db;
     add(input, repeater.at_threshold(step_db));
   }
+  repeats.emplace_back();
+  const FigureValues steps = cell_steps(ping, mask, measure_row(ping, mask, measure));
+  std::transform(steps.begin(), steps.end(), repeats.back().begin(), [](double v) { return static_cast<float>(v); });
   return repeats;
 }
 
@@ -223,8 +244,8 @@ FigureValues school_errors(std::span<const SchoolPingRow> rows, std::span<const 
   if (!again.known()) return errors;
   std::vector<FigureValues> others;
   for (std::size_t k = 0; k < kDraws; ++k) others.push_back(again.under_fading(k));
-  const FigureValues below = again.at_threshold(2);
-  const FigureValues above = again.at_threshold(1);
+  const FigureValues below = again.at_threshold(3);
+  const FigureValues above = again.at_threshold(2);
   const SchoolRow school = summarise(rows, summary);
   const FigureValues figures = figures_of(school);
   for (std::size_t i = 0; i < kErrorCount; ++i) {
@@ -234,7 +255,7 @@ FigureValues school_errors(std::span<const SchoolPingRow> rows, std::span<const 
     }
     const double by_threshold = 0.5 * (above[i] - below[i]);
     const double common = common_error(kErrorColumns[i], figures[i], school, params);
-    const double by_fading = spread(known, again.fadings());
+    const double by_fading = std::max(spread(known, again.fadings()), std::sqrt(again.hidden_variance(i)));
     if (is_count(kErrorColumns[i].figure) && by_fading == 0.0 && by_threshold == 0.0) continue;
     errors[i] = std::sqrt(by_fading * by_fading + by_threshold * by_threshold + common * common);
   }

@@ -79,8 +79,8 @@ inline constexpr std::size_t kFadings = kErrorFreedom + 1;
   return 1 + (kErrorFreedom + repeated - 1) / repeated;
 }
 
-/// Figures of one school in one ping as they would come out under other fading, and last under two other thresholds, below
-/// and above. Empty = not known.
+/// Figures of one school in one ping as they would come out under other fading, under two other thresholds, below and above,
+/// and last the cell_steps() of the ping. Empty = not known.
 using Repeats = std::vector<std::array<float, kErrorCount>>;
 
 /// Figures that have a standard error, in the order of kErrorColumns.
@@ -105,6 +105,8 @@ using Repeats = std::vector<std::array<float, kErrorCount>>;
 /// Standard errors of a school's figures, in the order of kErrorColumns; NaN = unknown. Fading differs from ping to ping;
 /// threshold, calibration, sound speed and tilt are alike in all. A ping that was not measured again scatters as the nearest one
 /// that was, under fadings of its own. Unknown where none was.
+/// What moves by whole cells may have stood still in all repeats, and yet not in the next: a step that none of n shows is taken
+/// to come 0.5 times in n + 1 (Jeffreys' prior; Brown, Cai & DasGupta 2001, Statistical Science 16).
 /// A count that no repeat changes has none: of 16, none may show what happens in one look of twenty.
 /// rows     of the school, rising time
 /// repeats  [row]; empty = not measured again

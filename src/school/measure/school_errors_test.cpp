@@ -16,6 +16,7 @@
 
 #include "base/units.h"
 #include "school/grow/grow.h"
+#include "school/measure/cell_steps.h"
 #include "school/measure/fading_field.h"
 #include "school/measure/measure.h"
 #include "school/test_ping.h"
@@ -49,11 +50,11 @@ SchoolPingRow row_of(double volume_m3) {
 
 Repeats unchanged(const SchoolPingRow& row) {
   const FigureValues figures = figures_of(row);
-  Repeats repeats(kFadings + 2);
-  for (auto& one : repeats) {
-    for (std::size_t i = 0; i < kErrorCount; ++i) one[i] = static_cast<float>(figures[i]);
+  Repeats repeats(kFadings + 3);
+  for (std::size_t k = 0; k < kFadings + 2; ++k) {
+    for (std::size_t i = 0; i < kErrorCount; ++i) repeats[k][i] = static_cast<float>(figures[i]);
   }
-  return repeats;
+  return repeats;  // no steps
 }
 
 // By hand: 0.5 % of sound speed is 1.5 % of a volume; 200 m x 0.5 degrees are 1.745 m of depth.
@@ -75,7 +76,7 @@ TEST(SchoolErrors, WhatIsAlikeInAllPingsIsNotMadeSmallerByThem) {
 TEST(SchoolErrors, FadingAndThresholdAddInQuadrature) {
   const std::vector<SchoolPingRow> rows{row_of(1000.0)};
   Repeats one = unchanged(rows.front());
-  for (std::size_t k = 0; k < one.size(); ++k) one[k][1] += k % 2 == 0 ? 1.0F : -1.0F;
+  for (std::size_t k = 0; k < kFadings; ++k) one[k][1] += k % 2 == 0 ? 1.0F : -1.0F;
   one[kFadings][1] = 1003.0F;
   one[kFadings + 1][1] = 997.0F;
   const std::vector<const Repeats*> repeats{&one};
@@ -87,6 +88,46 @@ TEST(SchoolErrors, FadingAndThresholdAddInQuadrature) {
   const std::vector<const Repeats*> unknown{&none};
   EXPECT_TRUE(std::isnan(error_of(school_errors(rows, unknown, {}, params), "volume_m3")))
       << "it was not measured again";
+}
+
+// No repeat moves the length, whose cell is 8 m: a step that came in none of 16 comes 0.5 times in 17.
+TEST(SchoolErrors, WhatStoodStillByWholeCellsHasAnErrorYet) {
+  const std::vector<SchoolPingRow> rows{row_of(1000.0)};
+  Repeats one = unchanged(rows.front());
+  one.back().fill(8.0F);
+  const std::vector<const Repeats*> repeats{&one};
+  ErrorParams params;
+  params.sound_speed_percent = 0.0;
+  EXPECT_NEAR(error_of(school_errors(rows, repeats, {}, params), "length_m"), 8.0 * std::sqrt(0.5 / 17.0 * 16.5 / 17.0),
+              1e-5);
+  const std::vector<SchoolPingRow> four(4, row_of(1000.0));
+  Repeats few = one;
+  few.erase(few.begin() + 5, few.begin() + kFadings);
+  const std::vector<const Repeats*> all(4, &few);
+  EXPECT_NEAR(error_of(school_errors(four, all, {}, params), "length_m"),
+              8.0 * std::sqrt(0.5 / 21.0 * 20.5 / 21.0 / 4.0), 1e-5);
+}
+
+// 150 m off at 30 degrees down and abeam, school along the ship: cells of 2.5 degrees of azimuth, 45 / 19 of elevation, 0.3776 m.
+TEST(SchoolErrors, StepsAreTheCellsEdges) {
+  test::MeasuredPing scene;
+  test::Ellipsoid body;
+  body.centre = Sector::direction(rad_from_deg(-45.0 + 6.0 * 45.0 / 19.0), rad_from_deg(270.0)) * 150.0;
+  body.half_x = 25.0;
+  scene.add(body);
+  SchoolPingRow row = scene.measured(1, false);
+  row.axis_deg = 0.0;
+  MeasureInput in;
+  in.sector = &scene.sector;
+  in.placement = scene.placement;
+  const FigureValues steps = cell_steps(in, scene.mask, row);
+  const double down = rad_from_deg(45.0 - 6.0 * 45.0 / 19.0);
+  const double range = row.range_m;
+  EXPECT_NEAR(error_of(steps, "length_m") / (range * std::cos(down) * rad_from_deg(2.5)), 1.0, 0.01);
+  const double fan = range * rad_from_deg(45.0 / 19.0);
+  EXPECT_NEAR(error_of(steps, "height_m") / std::hypot(fan * std::cos(down), 0.3776 * std::sin(down)), 1.0, 0.01);
+  EXPECT_NEAR(error_of(steps, "width_m") / std::hypot(fan * std::sin(down), 0.3776 * std::cos(down)), 1.0, 0.01);
+  EXPECT_EQ(error_of(steps, "sv_mean_db"), 0.0);
 }
 
 TEST(SchoolErrors, SixPingsSpreadEvenlyAreMeasuredAgain) {
@@ -116,7 +157,7 @@ double told_variance(std::size_t pings) {
       all.push_back(&repeats[ping]);
       if (fadings_of_ping(ping, pings) == 0) continue;
       repeats[ping] = unchanged(rows[ping]);
-      repeats[ping].resize(4 + 2);
+      repeats[ping].erase(repeats[ping].begin() + 4, repeats[ping].begin() + kFadings);
       std::array<float, 4> off{-3.0F, -1.0F, 1.0F, 3.0F};
       std::shuffle(off.begin(), off.end(), random);
       for (std::size_t k = 0; k < 4; ++k) repeats[ping][k][0] += off[k];
@@ -156,7 +197,7 @@ TEST(SchoolErrors, RepeatsHoldAsMuchEchoAsTheSchool) {
   ErrorParams params;
   params.enabled = true;
   const Repeats repeats = measure_repeats(in, scene.mask, {}, 10.0, 7, kFadings, {}, params);
-  ASSERT_EQ(repeats.size(), static_cast<std::size_t>(kFadings + 2));
+  ASSERT_EQ(repeats.size(), kFadings + 3);
   double mean = 0.0;
   for (std::size_t k = 0; k < kFadings; ++k) mean += static_cast<double>(repeats[k][backscatter_at()]) / kFadings;
   EXPECT_NEAR(mean / row.backscatter_m2, 1.0, 0.15) << "of 16 repeats that scatter by 0.15 each";
