@@ -76,8 +76,9 @@ class School {
       if (repeats == nullptr) continue;
       costs.measuring += ms_since(start);
       const auto again = std::clock();
-      repeats->push_back(measure_repeats(input, mask, MedianParams{}, kTolerance_db, random_(),
-                                         static_cast<std::size_t>(pings_), measure_, errors_));
+      repeats->push_back(measure_repeats(
+          input, mask, MedianParams{}, kTolerance_db, random_(),
+          fadings_of_ping(static_cast<std::size_t>(ping), static_cast<std::size_t>(pings_)), measure_, errors_));
       costs.repeating += ms_since(again);
       ++costs.pings;
     }
@@ -196,7 +197,7 @@ void test_school(School& school, int looks, Random& random, std::array<Tally, kE
     fading_only.threshold_db = fading_only.calibration_db = fading_only.sound_speed_percent = fading_only.tilt_deg =
         0.0;
     for (Repeats& one : repeats) {
-      if (!one.empty()) one.end()[-1] = one.end()[-2];
+      if (!one.empty()) one.end()[-2] = one.end()[-3];
     }
     const FigureValues by_fading = school_errors(rows, all, {}, fading_only);
     const double calibration_db = params.calibration_db * normal(random);

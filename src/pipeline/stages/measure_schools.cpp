@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,6 +45,7 @@ auto first_voxel(const SchoolMasks& school, const std::vector<int>& channel_of_r
 struct InPingRef {
   const SchoolMasks* school;
   const SchoolMasks::InPing* in_ping;
+  std::size_t fadings;  ///< that it is measured again under, for standard errors
 };
 
 PingMask others_than(const std::vector<InPingRef>& all, std::size_t index) {
@@ -93,9 +95,9 @@ MeasuredMask measure_one(const Engine& engine, const StagedPing& ping, const std
   row.ping_index = ping.ping_index;
   row.time_utc = at.time;
   const Recipe& recipe = engine.recipe();
-  Repeats repeats = measure_repeats(input, all[index].in_ping->mask, engine.filter_box(), recipe.detect.tolerance_db,
-                                    static_cast<std::uint64_t>(at.time), all[index].school->pings.size(),
-                                    recipe.measure, recipe.errors);
+  Repeats repeats =
+      measure_repeats(input, all[index].in_ping->mask, engine.filter_box(), recipe.detect.tolerance_db,
+                      static_cast<std::uint64_t>(at.time), all[index].fadings, recipe.measure, recipe.errors);
   return {std::move(school), faulty_members(input, all[index].in_ping->mask), std::move(repeats)};
 }
 
@@ -110,8 +112,7 @@ Hash128 key_of(const Engine& engine, std::int64_t ping_index, const std::vector<
     hasher.add(std::as_bytes(std::span(mask.runs)));
     hasher.add(std::as_bytes(std::span(mask.confidence)));
     if (!engine.recipe().errors.enabled) continue;
-    const int fadings = fadings_of_ping(one.school->pings.size());
-    hasher.add(std::as_bytes(std::span(&fadings, 1)));
+    hasher.add(std::as_bytes(std::span(&one.fadings, 1)));
   }
   return hasher.value();
 }
@@ -173,10 +174,34 @@ std::optional<WaterCurrents> currents_of(const Recipe& recipe) {
 
 using MeasuredPing = std::pair<std::int64_t, std::vector<InPingRef>>;
 
-std::vector<MeasuredPing> by_ping(const std::vector<SchoolMasks>& schools) {
+bool reaches_border(const PingMask& mask, const Sector& sector) {
+  const IndexBox box = box_of(mask, sector.beams());
+  return box.first_fan == 0 || box.last_fan == sector.fans() - 1 || box.first_beam == 0 ||
+         box.last_beam == sector.beams() - 1 || box.first_sample == 0 || box.last_sample == sector.range().count - 1;
+}
+
+/// How often each of a school's pings is measured again. Where the school is seen whole, its figures are of these pings alone.
+std::vector<std::size_t> fadings_of(const SchoolMasks& school, const Sector& sector) {
+  std::vector<std::size_t> whole;
+  for (std::size_t i = 0; i < school.pings.size(); ++i) {
+    if (!reaches_border(school.pings[i].mask, sector)) whole.push_back(i);
+  }
+  if (whole.empty()) {
+    whole.resize(school.pings.size());
+    std::iota(whole.begin(), whole.end(), std::size_t{0});
+  }
+  std::vector<std::size_t> fadings(school.pings.size(), 0);
+  for (std::size_t i = 0; i < whole.size(); ++i) fadings[whole[i]] = fadings_of_ping(i, whole.size());
+  return fadings;
+}
+
+std::vector<MeasuredPing> by_ping(const std::vector<SchoolMasks>& schools, const Sector& sector) {
   std::map<std::int64_t, std::vector<InPingRef>> pings;
   for (const SchoolMasks& school : schools) {
-    for (const SchoolMasks::InPing& in_ping : school.pings) pings[in_ping.ping_index].push_back({&school, &in_ping});
+    const std::vector<std::size_t> fadings = fadings_of(school, sector);
+    for (std::size_t i = 0; i < fadings.size(); ++i) {
+      pings[school.pings[i].ping_index].push_back({&school, &school.pings[i], fadings[i]});
+    }
   }
   return {pings.begin(), pings.end()};
 }
@@ -303,7 +328,7 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
                              MeasuredPings* before) {
   std::sort(schools.begin(), schools.end(),
             [](const auto& a, const auto& b) { return a.decided.school_id < b.decided.school_id; });
-  const std::vector<MeasuredPing> pings = by_ping(schools);
+  const std::vector<MeasuredPing> pings = by_ping(schools, engine.sector());
   std::vector<std::vector<MeasuredMask>> rows(pings.size());
   std::vector<std::string> problems(pings.size());
   std::atomic<std::int64_t> done{0};
@@ -344,7 +369,7 @@ Result<void> measure_schools(Engine& engine, std::vector<SchoolMasks> schools, O
 std::vector<std::int64_t> pings_to_measure(const Engine& engine, const std::vector<SchoolMasks>& schools,
                                            const MeasuredPings& before) {
   std::vector<std::int64_t> wanted;
-  for (const auto& [ping_index, refs] : by_ping(schools)) {
+  for (const auto& [ping_index, refs] : by_ping(schools, engine.sector())) {
     if (kept_rows(&before, engine, ping_index, refs) == nullptr) wanted.push_back(ping_index);
   }
   return wanted;

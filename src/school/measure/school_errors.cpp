@@ -6,10 +6,13 @@
 #include <cstddef>
 #include <numeric>
 #include <string_view>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "base/check.h"
 #include "base/units.h"
+#include "school/measure/cell_steps.h"
 #include "school/measure/fading_field.h"
 #include "school/measure/measure.h"
 #include "school/measure/repeat_ping.h"
@@ -17,41 +20,58 @@
 namespace sonar {
 namespace {
 
-/// Collects the figures that have an error, by their columns' names.
-struct FigureReader {
-  FigureValues& out;
-  void operator()(std::string_view, std::string_view, const auto&) const {}
-  void operator()(std::string_view name, std::string_view, double& value) const {
+/// So many of a ping's repeats are not under other fading: two thresholds and the steps.
+constexpr std::size_t kOthers = 3;
+/// So many ways to put a school together of its pings' fadings: with 16, what they are drawn by adds as much as their number.
+constexpr std::size_t kDraws = 64;
+
+/// Finds the figures that have an error, by the number of their column in a table.
+struct FigureFinder {
+  struct Place {
+    std::size_t column;
+    std::size_t figure;
+  };
+  std::vector<Place> found;  ///< rising
+  std::size_t column = 0;
+  void operator()(std::string_view name, std::string_view, const auto&) {
     for (std::size_t i = 0; i < kErrorCount; ++i) {
-      if (kErrorColumns[i].figure == name) out[i] = value;
+      if (kErrorColumns[i].figure == name) found.push_back({column, i});
     }
+    ++column;
   }
 };
 
-/// Puts figures in their places, the reverse.
-struct FigureWriter {
-  const std::array<float, kErrorCount>& in;
-  void operator()(std::string_view, std::string_view, const auto&) const {}
-  void operator()(std::string_view name, std::string_view, double& value) const {
-    for (std::size_t i = 0; i < kErrorCount; ++i) {
-      if (kErrorColumns[i].figure == name) value = static_cast<double>(in[i]);
-    }
-  }
-};
+/// visit(figure, value) for each figure of a row that has an error.
+template <class Row>
+void for_each_figure(Row& row, const auto& visit) {
+  static const std::vector<FigureFinder::Place> kPlaces = [] {
+    FigureFinder finder;
+    Row any;
+    columns(finder, any);
+    return finder.found;
+  }();
+  std::size_t column = 0;
+  auto next = kPlaces.begin();
+  const auto visitor = [&](std::string_view, std::string_view, auto&& value) {
+    if (next == kPlaces.end() || column++ != next->column) return;
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>) visit(next->figure, value);
+    ++next;
+  };
+  columns(visitor, row);
+}
 
 template <class Row>
 FigureValues read_figures(Row row) {
   FigureValues out = unknown_figures();
-  FigureReader reader{out};
-  columns(reader, row);
+  for_each_figure(row, [&](std::size_t i, double value) { out[i] = value; });
   return out;
 }
 
-/// Which of a ping's repeats under n fadings goes into the school's: each as often, in another order for each ping.
+/// Which of a ping's n repeats goes into the k-th of the school's: each as often, in another order for each ping.
 std::size_t turned(std::size_t k, std::size_t ping, std::size_t n) {
   std::array<std::size_t, kFadings> order{};
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::uint64_t random = mixed(ping * kFadings + k / n);
+  std::uint64_t random = mixed(ping * kDraws + k / n);
   for (std::size_t i = n; i > 1; --i) {  // Fisher & Yates
     std::swap(order[i - 1], order[random % i]);
     random /= i;
@@ -59,30 +79,90 @@ std::size_t turned(std::size_t k, std::size_t ping, std::size_t n) {
   return order[k % n];
 }
 
-/// The school's figures if all its pings were measured in other ways. which(ping) = index of its repeat
-FigureValues repeated(std::span<const SchoolPingRow> rows, std::span<const Repeats* const> repeats, const auto& which,
-                      const SummariseParams& summary) {
-  std::vector<SchoolPingRow> others(rows.begin(), rows.end());
-  for (std::size_t i = 0; i < others.size(); ++i) {
-    FigureWriter writer{(*repeats[i])[which(i)]};
-    columns(writer, others[i]);
-    // summarise() takes the echo of pings that know a corrected volume, which a repeat does not change.
+/// A school's pings, each with the repeats that tell how its figures scatter.
+class RepeatedSchool {
+ public:
+  RepeatedSchool(std::span<const SchoolPingRow> rows, std::span<const Repeats* const> repeats,
+                 const SummariseParams& summary)
+      : summary_(summary), rows_(rows.begin(), rows.end()), others_(rows_) {
+    std::vector<std::size_t> known;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      figures_.push_back(figures_of(rows_[i]));
+      // They may come from a file that anyone can write.
+      if (repeats[i]->size() >= 2 + kOthers && repeats[i]->size() <= kFadings + kOthers) known.push_back(i);
+    }
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < rows_.size() && !known.empty(); ++i) {
+      while (at + 1 < known.size() && known[at] + known[at + 1] < 2 * i) ++at;
+      sources_.push_back({known[at], repeats[known[at]]});
+      fadings_ = std::min(fadings_, repeats[known[at]]->size() - kOthers);
+    }
   }
-  return figures_of(summarise(others, summary));
-}
+  [[nodiscard]] bool known() const { return !sources_.empty(); }
+  /// Of the ping that has fewest.
+  [[nodiscard]] std::size_t fadings() const { return fadings_; }
+  /// The school under the k-th fading of all its pings.
+  [[nodiscard]] FigureValues under_fading(std::size_t k) {
+    return repeated([&](std::size_t ping, std::size_t n) { return turned(k, ping, n - kOthers); });
+  }
+  /// Under the threshold that stands so far from the end of its repeats.
+  [[nodiscard]] FigureValues at_threshold(std::size_t from_end) {
+    return repeated([&](std::size_t, std::size_t n) { return n - from_end; });
+  }
 
-/// Their standard deviation, so much wider that 1.96 of it are the 95 % of Student's t for as many.
+  /// Variance of a figure that cells let stand still under all fadings though it may move.
+  [[nodiscard]] double hidden_variance(std::size_t figure) const {
+    double square = 0.0;
+    double looks = 0.0;
+    std::size_t last = rows_.size();
+    for (const Source& source : sources_) {
+      const double step = static_cast<double>(source.repeats->back()[figure]);
+      square += step * step / static_cast<double>(sources_.size());
+      if (source.ping != last) looks += static_cast<double>(source.repeats->size() - kOthers);
+      last = source.ping;
+    }
+    const double share = 0.5 / (looks + 1.0);
+    return square * share * (1.0 - share) / static_cast<double>(sources_.size());
+  }
+
+ private:
+  struct Source {
+    std::size_t ping;
+    const Repeats* repeats;
+  };
+
+  /// which(ping, n) = index of its repeat among n
+  FigureValues repeated(const auto& which) {
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+      const auto& [ping, repeats] = sources_[i];
+      const auto& repeat = (*repeats)[which(i, repeats->size())];
+      for_each_figure(others_[i], [&](std::size_t at, double& value) {
+        value = figures_[i][at] + (static_cast<double>(repeat[at]) - figures_[ping][at]);
+      });
+      // summarise() takes the echo of pings that know a corrected volume, which a repeat does not change.
+    }
+    return figures_of(summarise(others_, summary_));
+  }
+
+  const SummariseParams& summary_;
+  std::vector<SchoolPingRow> rows_;
+  std::vector<SchoolPingRow> others_;
+  std::vector<FigureValues> figures_;
+  std::vector<Source> sources_;
+  std::size_t fadings_ = kFadings;
+};
+
+/// Their standard deviation, so much wider that 1.96 of it are the 95 % of Student's t for kErrorFreedom.
 /// fadings  of a ping: where they are few, each comes up several times and the mean of a ping's hardly differs
 double spread(const std::vector<double>& values, std::size_t fadings) {
-  // 15 degrees of freedom; where repeats are put together of shared fadings they know as much as some 10 independent ones.
-  const double student = (fadings == kFadings ? 2.1314 : 2.2622) / 1.95996;
-  if (2 * values.size() < kFadings) return kUnknown;
+  constexpr double kStudent = 2.1314 / 1.95996;
+  if (2 * values.size() < kDraws) return kUnknown;
   double mean = 0.0;
   for (const double v : values) mean += v / static_cast<double>(values.size());
   double square = 0.0;
   for (const double v : values) square += (v - mean) * (v - mean);
   const auto n = static_cast<double>(fadings);
-  return student * std::sqrt(square / static_cast<double>(values.size()) * n / (n - 1.0));
+  return kStudent * std::sqrt(square / static_cast<double>(values.size()) * n / (n - 1.0));
 }
 
 bool is_level(std::string_view figure) { return figure.starts_with("sv_") && figure.ends_with("_db"); }
@@ -122,11 +202,12 @@ FigureValues figures_of(const SchoolPingRow& row) { return read_figures(row); }
 FigureValues figures_of(const SchoolRow& row) { return read_figures(row); }
 
 Repeats measure_repeats(const MeasureInput& ping, const PingMask& mask, const MedianParams& median, double tolerance_db,
-                        std::uint64_t seed, std::size_t pings, const MeasureParams& measure,
+                        std::uint64_t seed, std::size_t fadings, const MeasureParams& measure,
                         const ErrorParams& params) {
   Repeats repeats;
   // Unfiltered, the echo's own fading cannot be told from what fades.
-  if (!params.enabled || !median.enabled || ping.filtered.data() == nullptr || std::isnan(ping.threshold_db)) {
+  if (!params.enabled || fadings == 0 || !median.enabled || ping.filtered.data() == nullptr ||
+      std::isnan(ping.threshold_db)) {
     return repeats;
   }
   const auto add = [&](const MeasureInput& input, const PingMask& other) {
@@ -136,9 +217,8 @@ Repeats measure_repeats(const MeasureInput& ping, const PingMask& mask, const Me
                    [](double v) { return static_cast<float>(v); });
   };
   PingRepeater repeater(ping, mask, median, tolerance_db);
-  const int fadings = fadings_of_ping(pings);
-  for (int k = 0; k < fadings; ++k) {
-    const PingMask other = repeater.under_fading(seed + static_cast<std::uint64_t>(k));
+  for (std::size_t k = 0; k < fadings; ++k) {
+    const PingMask other = repeater.under_fading(seed + k);
     MeasureInput input = ping;
     input.sv = repeater.sv();
     input.filtered = repeater.filtered();
@@ -150,6 +230,9 @@ Repeats measure_repeats(const MeasureInput& ping, const PingMask& mask, const Me
     input.threshold_db += step_db;
     add(input, repeater.at_threshold(step_db));
   }
+  repeats.emplace_back();
+  const FigureValues steps = cell_steps(ping, mask, measure_row(ping, mask, measure));
+  std::transform(steps.begin(), steps.end(), repeats.back().begin(), [](double v) { return static_cast<float>(v); });
   return repeats;
 }
 
@@ -157,33 +240,22 @@ FigureValues school_errors(std::span<const SchoolPingRow> rows, std::span<const 
                            const SummariseParams& summary, const ErrorParams& params) {
   SONAR_CHECK(rows.size() == repeats.size() && !rows.empty());
   FigureValues errors = unknown_figures();
-  std::size_t fadings = kFadings;  // of the ping that has fewest
-  for (const Repeats* one : repeats) {
-    // They may come from a file that anyone can write.
-    if (one->size() < kLeastFadings + 2 || one->size() > kFadings + 2) return errors;
-    fadings = std::min(fadings, one->size() - 2);
-  }
+  RepeatedSchool again(rows, repeats, summary);
+  if (!again.known()) return errors;
   std::vector<FigureValues> others;
-  for (std::size_t k = 0; k < kFadings; ++k) {
-    const auto which = [&](std::size_t ping) { return turned(k, ping, repeats[ping]->size() - 2); };
-    others.push_back(repeated(rows, repeats, which, summary));
-  }
-  const auto last = [&](std::size_t back) {
-    return repeated(
-        rows, repeats, [&](std::size_t ping) { return repeats[ping]->size() - back; }, summary);
-  };
-  const FigureValues below = last(2);
-  const FigureValues above = last(1);
+  for (std::size_t k = 0; k < kDraws; ++k) others.push_back(again.under_fading(k));
+  const FigureValues below = again.at_threshold(3);
+  const FigureValues above = again.at_threshold(2);
   const SchoolRow school = summarise(rows, summary);
   const FigureValues figures = figures_of(school);
   for (std::size_t i = 0; i < kErrorCount; ++i) {
     std::vector<double> known;
-    for (std::size_t k = 0; k < kFadings; ++k) {
-      if (std::isfinite(others[k][i])) known.push_back(others[k][i]);
+    for (const FigureValues& one : others) {
+      if (std::isfinite(one[i])) known.push_back(one[i]);
     }
     const double by_threshold = 0.5 * (above[i] - below[i]);
     const double common = common_error(kErrorColumns[i], figures[i], school, params);
-    const double by_fading = spread(known, fadings);
+    const double by_fading = std::max(spread(known, again.fadings()), std::sqrt(again.hidden_variance(i)));
     if (is_count(kErrorColumns[i].figure) && by_fading == 0.0 && by_threshold == 0.0) continue;
     errors[i] = std::sqrt(by_fading * by_fading + by_threshold * by_threshold + common * common);
   }

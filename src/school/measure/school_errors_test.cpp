@@ -3,16 +3,20 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <random>
 #include <string_view>
 #include <vector>
 
 #include "base/units.h"
 #include "school/grow/grow.h"
+#include "school/measure/cell_steps.h"
 #include "school/measure/fading_field.h"
 #include "school/measure/measure.h"
 #include "school/test_ping.h"
@@ -46,11 +50,11 @@ SchoolPingRow row_of(double volume_m3) {
 
 Repeats unchanged(const SchoolPingRow& row) {
   const FigureValues figures = figures_of(row);
-  Repeats repeats(kFadings + 2);
-  for (auto& one : repeats) {
-    for (std::size_t i = 0; i < kErrorCount; ++i) one[i] = static_cast<float>(figures[i]);
+  Repeats repeats(kFadings + 3);
+  for (std::size_t k = 0; k < kFadings + 2; ++k) {
+    for (std::size_t i = 0; i < kErrorCount; ++i) repeats[k][i] = static_cast<float>(figures[i]);
   }
-  return repeats;
+  return repeats;  // no steps
 }
 
 // By hand: 0.5 % of sound speed is 1.5 % of a volume; 200 m x 0.5 degrees are 1.745 m of depth.
@@ -72,7 +76,7 @@ TEST(SchoolErrors, WhatIsAlikeInAllPingsIsNotMadeSmallerByThem) {
 TEST(SchoolErrors, FadingAndThresholdAddInQuadrature) {
   const std::vector<SchoolPingRow> rows{row_of(1000.0)};
   Repeats one = unchanged(rows.front());
-  for (std::size_t k = 0; k < one.size(); ++k) one[k][1] += k % 2 == 0 ? 1.0F : -1.0F;
+  for (std::size_t k = 0; k < kFadings; ++k) one[k][1] += k % 2 == 0 ? 1.0F : -1.0F;
   one[kFadings][1] = 1003.0F;
   one[kFadings + 1][1] = 997.0F;
   const std::vector<const Repeats*> repeats{&one};
@@ -86,31 +90,91 @@ TEST(SchoolErrors, FadingAndThresholdAddInQuadrature) {
       << "it was not measured again";
 }
 
-// Four pings with four fadings each, -3, -1, 1 and 3 off: the variance of one is 20 / 3, that of their mean a quarter of it.
-// The 16 ways to put them together know it about as well as 10 independent ones.
-TEST(SchoolErrors, PingsShareOutTheFadings) {
-  EXPECT_EQ(fadings_of_ping(1), 16);
-  EXPECT_EQ(fadings_of_ping(2), 8);
-  EXPECT_EQ(fadings_of_ping(40), 4);
+// No repeat moves the length, whose cell is 8 m: a step that came in none of 16 comes 0.5 times in 17.
+TEST(SchoolErrors, WhatStoodStillByWholeCellsHasAnErrorYet) {
+  const std::vector<SchoolPingRow> rows{row_of(1000.0)};
+  Repeats one = unchanged(rows.front());
+  one.back().fill(8.0F);
+  const std::vector<const Repeats*> repeats{&one};
+  ErrorParams params;
+  params.sound_speed_percent = 0.0;
+  EXPECT_NEAR(error_of(school_errors(rows, repeats, {}, params), "length_m"), 8.0 * std::sqrt(0.5 / 17.0 * 16.5 / 17.0),
+              1e-5);
+  const std::vector<SchoolPingRow> four(4, row_of(1000.0));
+  Repeats few = one;
+  few.erase(few.begin() + 5, few.begin() + kFadings);
+  const std::vector<const Repeats*> all(4, &few);
+  EXPECT_NEAR(error_of(school_errors(four, all, {}, params), "length_m"),
+              8.0 * std::sqrt(0.5 / 21.0 * 20.5 / 21.0 / 4.0), 1e-5);
+}
+
+// 150 m off at 30 degrees down and abeam, school along the ship: cells of 2.5 degrees of azimuth, 45 / 19 of elevation, 0.3776 m.
+TEST(SchoolErrors, StepsAreTheCellsEdges) {
+  test::MeasuredPing scene;
+  test::Ellipsoid body;
+  body.centre = Sector::direction(rad_from_deg(-45.0 + 6.0 * 45.0 / 19.0), rad_from_deg(270.0)) * 150.0;
+  body.half_x = 25.0;
+  scene.add(body);
+  SchoolPingRow row = scene.measured(1, false);
+  row.axis_deg = 0.0;
+  MeasureInput in;
+  in.sector = &scene.sector;
+  in.placement = scene.placement;
+  const FigureValues steps = cell_steps(in, scene.mask, row);
+  const double down = rad_from_deg(45.0 - 6.0 * 45.0 / 19.0);
+  const double range = row.range_m;
+  EXPECT_NEAR(error_of(steps, "length_m") / (range * std::cos(down) * rad_from_deg(2.5)), 1.0, 0.01);
+  const double fan = range * rad_from_deg(45.0 / 19.0);
+  EXPECT_NEAR(error_of(steps, "height_m") / std::hypot(fan * std::cos(down), 0.3776 * std::sin(down)), 1.0, 0.01);
+  EXPECT_NEAR(error_of(steps, "width_m") / std::hypot(fan * std::sin(down), 0.3776 * std::cos(down)), 1.0, 0.01);
+  EXPECT_EQ(error_of(steps, "sv_mean_db"), 0.0);
+}
+
+TEST(SchoolErrors, SixPingsSpreadEvenlyAreMeasuredAgain) {
+  EXPECT_EQ(fadings_of_ping(0, 1), 16U);
+  EXPECT_EQ(fadings_of_ping(0, 2), 9U);
+  EXPECT_EQ(fadings_of_ping(1, 2), 9U);
+  std::vector<std::size_t> places;
+  for (std::size_t place = 0; place < 40; ++place) {
+    if (fadings_of_ping(place, 40) == 4) places.push_back(place);
+  }
+  for (std::size_t place = 0; place < 7; ++place) EXPECT_EQ(fadings_of_ping(place, 7) > 0, place != 3) << place;
+  EXPECT_EQ(places, (std::vector<std::size_t>{3, 10, 16, 23, 30, 36}));
+}
+
+/// Told variance of the mean depth of a school whose pings scatter by fadings of 3 and of 1 to both sides of theirs, in any
+/// order.
+double told_variance(std::size_t pings) {
   double variance = 0.0;
-  constexpr int kSchools = 30;
-  for (int school = 0; school < kSchools; ++school) {
-    std::vector<SchoolPingRow> rows(4, row_of(1000.0));
-    std::vector<Repeats> repeats(4, Repeats(6, unchanged(rows.front()).front()));
-    for (std::size_t ping = 0; ping < 4; ++ping) {
-      for (std::size_t k = 0; k < 4; ++k) {
-        // whichever order they were drawn in
-        const auto turn = (k + static_cast<std::size_t>(school) * (ping + 1)) % 4;
-        repeats[ping][k][0] += -3.0F + 2.0F * static_cast<float>(school % 2 == 0 ? turn : 3 - turn);
-      }
-    }
+  constexpr std::size_t kSchools = 30;
+  std::mt19937_64 random(pings);
+  for (std::size_t school = 0; school < kSchools; ++school) {
+    std::vector<SchoolPingRow> rows(pings, row_of(1000.0));
+    std::vector<Repeats> repeats(pings);
     std::vector<const Repeats*> all;
-    for (const Repeats& one : repeats) all.push_back(&one);
+    for (std::size_t ping = 0; ping < pings; ++ping) {
+      rows[ping].depth_m += 10.0 * static_cast<double>(ping % 3);  // it swims: no error of its mean
+      all.push_back(&repeats[ping]);
+      if (fadings_of_ping(ping, pings) == 0) continue;
+      repeats[ping] = unchanged(rows[ping]);
+      repeats[ping].erase(repeats[ping].begin() + 4, repeats[ping].begin() + kFadings);
+      std::array<float, 4> off{-3.0F, -1.0F, 1.0F, 3.0F};
+      std::shuffle(off.begin(), off.end(), random);
+      for (std::size_t k = 0; k < 4; ++k) repeats[ping][k][0] += off[k];
+    }
     ErrorParams params;
     params.sound_speed_percent = params.tilt_deg = 0.0;
     variance += std::pow(error_of(school_errors(rows, all, {}, params), "depth_m"), 2) / kSchools;
   }
-  EXPECT_NEAR(variance / (20.0 / 3.0 / 4.0) / std::pow(2.2622 / 1.95996, 2), 1.0, 0.35);
+  return variance / std::pow(2.1314 / 1.95996, 2);
+}
+
+// The variance of one ping is 20 / 3, that of a mean over n pings the n-th part of it, whether each was measured again or
+// some stand for those beside them.
+TEST(SchoolErrors, PingsThatStandForOthersTellTheErrorOfAllPings) {
+  for (const std::size_t pings : {4U, 6U, 15U, 40U}) {
+    EXPECT_NEAR(told_variance(pings) / (20.0 / 3.0 / static_cast<double>(pings)), 1.0, 0.15) << pings;
+  }
 }
 
 // A school hardly larger than the median's box: what it is measured as again is as loud as it was heard. Its filtered level
@@ -132,8 +196,8 @@ TEST(SchoolErrors, RepeatsHoldAsMuchEchoAsTheSchool) {
   in.threshold_db = -200.0;  // the mask stays as it is
   ErrorParams params;
   params.enabled = true;
-  const Repeats repeats = measure_repeats(in, scene.mask, {}, 10.0, 7, 1, {}, params);
-  ASSERT_EQ(repeats.size(), static_cast<std::size_t>(kFadings + 2));
+  const Repeats repeats = measure_repeats(in, scene.mask, {}, 10.0, 7, kFadings, {}, params);
+  ASSERT_EQ(repeats.size(), kFadings + 3);
   double mean = 0.0;
   for (std::size_t k = 0; k < kFadings; ++k) mean += static_cast<double>(repeats[k][backscatter_at()]) / kFadings;
   EXPECT_NEAR(mean / row.backscatter_m2, 1.0, 0.15) << "of 16 repeats that scatter by 0.15 each";
@@ -228,7 +292,7 @@ TEST(SchoolErrors, RepeatsOfOneLookScatterAsLooksDo) {
     for (std::size_t i = 0; i < figures.size(); ++i) seen[i].push_back(error_of(values, figures[i]));
     if (look >= kRepeated) continue;
     const Repeats repeats =
-        measure_repeats(in, looks.mask, {}, 10.0, static_cast<std::uint64_t>(look) * 1000, 1, {}, params);
+        measure_repeats(in, looks.mask, {}, 10.0, static_cast<std::uint64_t>(look) * 1000, kFadings, {}, params);
     const std::vector<const Repeats*> all{&repeats};
     const std::vector<SchoolPingRow> rows{row};
     const FigureValues errors = school_errors(rows, all, {}, params);
