@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "model/later_columns.h"
+
 namespace sonar {
 
 bool is_formula(std::string_view text) { return text.find_first_of("=+-@\t\r") == 0; }

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "model/later_columns.h"
+
 namespace sonar {
 namespace {
 

@@ -12,6 +12,7 @@
 #include "io/product_file.h"
 #include "io/product_grid_reader.h"
 #include "io/product_seal.h"
+#include "model/later_columns.h"
 
 namespace sonar {
 namespace {
