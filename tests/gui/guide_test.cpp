@@ -38,6 +38,11 @@ class Guide : public WindowAtWork {
     settle();
   }
 
+  void keep_dock(const char* dock, const char* name) {
+    raise(dock);
+    EXPECT_TRUE(window_->findChild<QDockWidget*>(dock)->grab().save(QString::fromStdString((out_ / name).string())));
+  }
+
   std::filesystem::path out_;
 };
 
@@ -57,6 +62,8 @@ TEST_F(Guide, Pictures) {
   key(Qt::Key_Escape);  // with nothing selected the review begins with what scatters most
   app_->actions.find("review.next")->run();
   keep("guide-review.png");
+  keep_dock("echogram", "guide-echogram.png");
+  keep_dock("chart", "guide-chart.png");
   QTimer::singleShot(300, window_.get(), [this] {
     auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
     ASSERT_NE(dialog, nullptr);
