@@ -41,7 +41,7 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"background", 4, "4f44a41c3ce12e5f2db11de0a9dfdcf5"},
     {"median", 1, "29ae415283b450c6c185eacc33b42f65"},
     {"seabed", 7, "bd52c987c7035c50998bb977009262fe"},
-    {"detect", 15, "377014ec67318b80c167d6dd11887fbb"},
+    {"detect", 16, "377014ec67318b80c167d6dd11887fbb"},
     {"track", 11, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 5, "07fc13208a4339c9753bc8d5d859fd72"},
     {"measure", 19, "90682cad4440b1a91f7e7be4084a0acd"},

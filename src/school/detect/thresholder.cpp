@@ -118,8 +118,12 @@ bool Thresholder::evident(int row, int sample) const {
                   static_cast<std::size_t>(block)] != 0;
 }
 
+bool Thresholder::may_be_sought(const RowWater& water, int row, int sample) const {
+  return water.loudest(sample) < sought_ || evident(row, sample);
+}
+
 bool Thresholder::may_be_sought(int row, int sample) const {
-  return RowWater(background_, water_, row, sv_.shape().beams).loudest(sample) < sought_ || evident(row, sample);
+  return may_be_sought(RowWater(background_, water_, row, sv_.shape().beams), row, sample);
 }
 
 void Thresholder::cut(int row, int first, int end, std::vector<Run>& runs) const {
@@ -178,9 +182,8 @@ std::vector<Run> Thresholder::above(const IndexBox& box, double level_db, double
       const auto member = [&](int s) {
         if (counts[s] < level || counts[s] == kNoData || any(flags[s] & kNeverMember)) return false;
         const int mean = water.mean(s);
-        if (water.loudest(s) >= sought_ && !evident(row, s)) return false;
         return counts[s] >= level_sum(level, mean + median_of_mean_counts()) &&
-               counts[s] >= mean + std::max(least, water.reach(s));
+               counts[s] >= mean + std::max(least, water.reach(s)) && may_be_sought(water, row, s);
       };
       collect(row, box.first_sample, box.last_sample + 1, member, runs);
     }

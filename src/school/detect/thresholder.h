@@ -77,7 +77,9 @@ class Thresholder {
   template <class Member>
   void collect(int row, int first, int end, const Member& member, std::vector<Run>& runs) const;
 
+  /// Whether a sample lies in a block with evidence of its own.
   [[nodiscard]] bool evident(int row, int sample) const;
+  [[nodiscard]] bool may_be_sought(const RowWater& water, int row, int sample) const;
 
   View3<const std::int16_t> sv_;
   View3<const SampleFlags> flags_;

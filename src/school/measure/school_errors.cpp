@@ -110,19 +110,25 @@ class RepeatedSchool {
     return repeated([&](std::size_t, std::size_t n) { return n - from_end; });
   }
 
-  /// Variance of a figure that cells let stand still under all fadings though it may move.
+  /// Variance of a figure that cells let stand still under all fadings though it may move, by the pings that summarise() uses.
   [[nodiscard]] double hidden_variance(std::size_t figure) const {
+    const auto is_whole = [](const SchoolPingRow& row) { return row.touches_edge == 0; };
+    const bool any_whole = std::any_of(rows_.begin(), rows_.end(), is_whole);
     double square = 0.0;
     double looks = 0.0;
+    double pings = 0.0;
     std::size_t last = rows_.size();
-    for (const Source& source : sources_) {
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (any_whole && !is_whole(rows_[i])) continue;
+      const Source& source = sources_[i];
       const double step = static_cast<double>(source.repeats->back()[figure]);
-      square += step * step / static_cast<double>(sources_.size());
+      square += step * step;
+      pings += 1.0;
       if (source.ping != last) looks += static_cast<double>(source.repeats->size() - kOthers);
       last = source.ping;
     }
     const double share = 0.5 / (looks + 1.0);
-    return square * share * (1.0 - share) / static_cast<double>(sources_.size());
+    return square / pings * share * (1.0 - share) / pings;
   }
 
  private:
@@ -157,6 +163,8 @@ class RepeatedSchool {
 double spread(const std::vector<double>& values, std::size_t fadings) {
   constexpr double kStudent = 2.1314 / 1.95996;
   if (2 * values.size() < kDraws) return kUnknown;
+  // What stands still has exactly none: its mean may differ from it by what is rounded.
+  if (std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); })) return 0.0;
   double mean = 0.0;
   for (const double v : values) mean += v / static_cast<double>(values.size());
   double square = 0.0;

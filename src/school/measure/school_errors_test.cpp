@@ -108,6 +108,34 @@ TEST(SchoolErrors, WhatStoodStillByWholeCellsHasAnErrorYet) {
               8.0 * std::sqrt(0.5 / 21.0 * 20.5 / 21.0 / 4.0), 1e-5);
 }
 
+// Pings that are cut are not in the school's figures, and do not make their errors smaller.
+TEST(SchoolErrors, CutPingsDoNotShareTheStepsOfAWholeOne) {
+  std::vector<SchoolPingRow> rows(4, row_of(1000.0));
+  for (std::size_t i = 1; i < rows.size(); ++i) rows[i].touches_edge = 1;
+  Repeats one = unchanged(rows.front());
+  one.back().fill(8.0F);
+  const Repeats none;
+  const std::vector<const Repeats*> repeats{&one, &none, &none, &none};
+  ErrorParams params;
+  params.sound_speed_percent = 0.0;
+  EXPECT_NEAR(error_of(school_errors(rows, repeats, {}, params), "length_m"), 8.0 * std::sqrt(0.5 / 17.0 * 16.5 / 17.0),
+              1e-5);
+}
+
+// The school's is the fourth's, for which the third stands: what is rounded between the two is no scatter.
+TEST(SchoolErrors, AShareThatStandsStillHasNone) {
+  std::vector<SchoolPingRow> rows(7, row_of(1000.0));
+  std::vector<Repeats> repeats(rows.size());
+  std::vector<const Repeats*> all;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].vacuole_fraction = 0.02 + 0.007 * static_cast<double>(i);
+    if (fadings_of_ping(i, rows.size()) > 0) repeats[i] = unchanged(rows[i]);
+    all.push_back(&repeats[i]);
+  }
+  EXPECT_TRUE(repeats[3].empty());
+  EXPECT_TRUE(std::isnan(error_of(school_errors(rows, all, {}, {}), "vacuole_fraction")));
+}
+
 // 150 m off at 30 degrees down and abeam, school along the ship: cells of 2.5 degrees of azimuth, 45 / 19 of elevation, 0.3776 m.
 TEST(SchoolErrors, StepsAreTheCellsEdges) {
   test::MeasuredPing scene;
