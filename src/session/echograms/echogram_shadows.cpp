@@ -79,12 +79,13 @@ void EchogramShadows::work_out(const ShadowWish& wish, const CancelToken& token,
                                const std::function<void()>& before_each, const std::function<void()>& more) {
   int fresh = 0;
   for (const auto& [ping, schools] : schools_by_ping(wish)) {
+    if (token.cancelled()) return;
     const Hash128 hash = hash_of(schools);
     {
       const std::lock_guard lock(mutex_);
+      turn_to(wish);
       if (kept(ping, hash) != nullptr) continue;
     }
-    if (token.cancelled()) return;
     before_each();
     Kept made{hash, shadow_in(wish, ping, schools)};
     {
