@@ -19,7 +19,7 @@ using SchoolsByPing = std::map<std::int64_t, std::vector<const PingMask*>>;
 SchoolsByPing schools_by_ping(const ShadowWish& wish) {
   const auto casts = [&](const SchoolMask& mask) {
     const auto school = std::ranges::find(wish.product->schools, mask.school_id, &SchoolRow::school_id);
-    return wish.rejected || school == wish.product->schools.end() || school->status != "rejected";
+    return school == wish.product->schools.end() || school->status != "rejected";
   };
   const int beams = wish.open->sector().beams();
   const auto shown = [&](const Run& run) {
