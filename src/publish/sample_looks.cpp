@@ -77,7 +77,8 @@ std::optional<double> weak_below(const DisplayParams& display) {
 std::vector<const PingMask*> schools_of(std::span<const MaskLayer> masks) {
   std::vector<const PingMask*> schools;
   for (const MaskLayer& layer : masks) {
-    if (layer.mask != nullptr) schools.push_back(layer.mask.get());
+    const bool rejected = layer.line == OutlineLine::dotted;  // status_line()
+    if (layer.mask != nullptr && !rejected) schools.push_back(layer.mask.get());
   }
   return schools;
 }

@@ -34,7 +34,7 @@ namespace sonar {
                                                  std::span<const MaskLayer> masks, const ExtinctionParams& extinction,
                                                  const DisplayParams& display);
 
-/// The schools among masks that are drawn.
+/// Of masks that are drawn, those that take sound out of beams: no school that a human rejected.
 [[nodiscard]] std::vector<const PingMask*> schools_of(std::span<const MaskLayer> masks);
 
 }  // namespace sonar

@@ -260,8 +260,7 @@ std::string extinction_text(const IntegrationTables& tables) {
   const StratumRow& survey = tables.strata.back();
   return fmt::format(
       "schools' extinction is corrected (measure.extinction.correct): {:.3g} m2 nmi-2 of the NASC was given back, "
-      "{:.3g} "
-      "to {:.3g} at the ends of the ratio's interval; see nasc_extinction_m2_nmi2",
+      "{:.3g} to {:.3g} at the ends of the ratio's interval; see nasc_extinction_m2_nmi2",
       survey.nasc_extinction_m2_nmi2, survey.nasc_extinction_low_m2_nmi2, survey.nasc_extinction_high_m2_nmi2);
 }
 

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <tuple>
@@ -47,6 +48,20 @@ struct InPingRef {
   const SchoolMasks::InPing* in_ping;
   std::size_t fadings;  ///< that it is measured again under, for standard errors
 };
+
+/// As in echo integration, what a human rejected takes no sound out of the beams.
+bool is_fish(const InPingRef& school) { return school.school->decided.status != "rejected"; }
+
+/// Whether a beam that holds some of a school holds some of another too: one may lie in the other's shadow.
+bool shares_beams(const std::vector<InPingRef>& all, std::size_t index) {
+  std::set<int> rows;
+  for (const Run& run : all[index].in_ping->mask.runs) rows.insert(run.row);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::vector<Run>& runs = all[i].in_ping->mask.runs;
+    if (i != index && std::ranges::any_of(runs, [&](const Run& run) { return rows.contains(run.row); })) return true;
+  }
+  return false;
+}
 
 PingMask others_than(const std::vector<InPingRef>& all, std::size_t index) {
   PingMask others;
@@ -105,8 +120,11 @@ MeasuredMask measure_one(const Engine& engine, const StagedPing& ping, const std
 Hash128 key_of(const Engine& engine, std::int64_t ping_index, const std::vector<InPingRef>& schools) {
   Hasher hasher;
   if (engine.known() != nullptr) hasher.add(std::as_bytes(std::span(&engine.keys().placed(ping_index), 1)));
-  for (const InPingRef& one : schools) {
+  for (std::size_t i = 0; i < schools.size(); ++i) {
+    const InPingRef& one = schools[i];
     const PingMask& mask = one.in_ping->mask;
+    const bool lets_through = !is_fish(one) && shares_beams(schools, i);
+    hasher.add(std::as_bytes(std::span(&lets_through, 1)));
     hasher.add(std::as_bytes(std::span(&one.school->decided.school_id, 1)));
     hasher.add(std::as_bytes(std::span(&one.in_ping->threshold_db, 1)));
     hasher.add(std::as_bytes(std::span(mask.runs)));
@@ -117,30 +135,52 @@ Hash128 key_of(const Engine& engine, std::int64_t ping_index, const std::vector<
   return hasher.value();
 }
 
+/// A ping as schools are measured in it: what fish take out of its beams is told, and given back where the recipe corrects.
+struct ShadowedPing {
+  ShadowedPing(const MeasureInput& heard, std::span<const PingMask* const> fish, const ExtinctionParams& params)
+      : shadow(heard, fish, params), input(heard) {
+    if (!params.correct) return;
+    sv = without_extinction(heard.sv, heard.background, shadow.gain(), 1.0);
+    filtered = without_extinction(heard.filtered, heard.background, shadow.gain(), std::numbers::ln2);
+    input.sv = std::as_const(sv).view();
+    input.filtered = std::as_const(filtered).view();
+  }
+  ShadowedPing(const ShadowedPing&) = delete;
+  ShadowedPing& operator=(const ShadowedPing&) = delete;
+
+  PingShadow shadow;
+  Array3<std::int16_t> sv;
+  Array3<std::int16_t> filtered;
+  MeasureInput input;
+};
+
 std::vector<MeasuredMask> measure_ping(const StagedPing& ping, const Engine& engine,
                                        const std::vector<InPingRef>& schools, double area) {
   MeasureInput input = input_of(engine, ping, area);
   std::vector<const PingMask*> masks;
-  for (const InPingRef& school : schools) masks.push_back(&school.in_ping->mask);
+  std::vector<const PingMask*> fish;
+  for (const InPingRef& school : schools) {
+    masks.push_back(&school.in_ping->mask);
+    if (is_fish(school)) fish.push_back(masks.back());
+  }
   std::optional<EchoClaims> claims;
   if (schools.size() > 1) {
     claims = echo_claims(input, masks);
     input.claims = &*claims;
   }
   const ExtinctionParams& extinction = engine.recipe().measure.extinction;
-  const PingShadow shadow(input, masks, extinction);
-  Array3<std::int16_t> sv;
-  Array3<std::int16_t> filtered;
-  if (extinction.correct) {
-    sv = without_extinction(input.sv, input.background, shadow.gain(), 1.0);
-    filtered = without_extinction(input.filtered, input.background, shadow.gain(), std::numbers::ln2);
-    input.sv = std::as_const(sv).view();
-    input.filtered = std::as_const(filtered).view();
-  }
+  const ShadowedPing by_fish(input, fish, extinction);
   std::vector<MeasuredMask> rows;
   for (std::size_t i = 0; i < schools.size(); ++i) {
-    rows.push_back(measure_one(engine, ping, schools, i, input));
-    shadow.tell(schools[i].in_ping->mask, rows.back().school.row);
+    std::optional<ShadowedPing> by_it_too;  // a rejected school's own row tells what it would be as fish
+    if (!is_fish(schools[i])) {
+      std::vector<const PingMask*> with = fish;
+      with.push_back(masks[i]);
+      by_it_too.emplace(input, with, extinction);
+    }
+    const ShadowedPing& heard = by_it_too ? *by_it_too : by_fish;
+    rows.push_back(measure_one(engine, ping, schools, i, heard.input));
+    heard.shadow.tell(*masks[i], rows.back().school.row);
   }
   return rows;
 }

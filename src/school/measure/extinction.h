@@ -43,7 +43,7 @@ using PingGain = std::vector<BeamGain>;  ///< [row]
 /// What extinction does to the schools of a ping, at the ratio and at both ends of its interval.
 class PingShadow {
  public:
-  /// masks  of all schools of the ping; borrowed with the ping
+  /// masks  of the ping's schools that take sound out, and of those that are told; borrowed with the ping
   PingShadow(const MeasureInput& ping, std::span<const PingMask* const> masks, const ExtinctionParams& params);
 
   /// Fills the columns of extinction of a school.

@@ -12,12 +12,7 @@ namespace {
 /// Empty where no shadow is to be shown, or nothing is there to cast one.
 std::optional<ShadowWish> shadow_of(const EchogramWish& wish) {
   if (!wish.display.shadow || !wish.display.masks || !wish.open || !wish.product || !wish.of.echogram) return {};
-  return ShadowWish{wish.open,
-                    wish.product,
-                    wish.of.name.of,
-                    wish.of.echogram->range(),
-                    wish.display.shadow_db,
-                    wish.display.rejected};
+  return ShadowWish{wish.open, wish.product, wish.of.name.of, wish.of.echogram->range(), wish.display.shadow_db};
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ TEST_F(Echogram, ShadowBeginsWhereSlicesHaveIt) {
   ASSERT_TRUE(product && !product->masks.empty());
   const int row = product->masks.front().mask.runs.front().row;
   const int beams = shown().sector().beams();
-  ShadowWish wish{document().shown(), product, {row / beams, row % beams, EchogramHeight::range}, {}, 1e-4, true};
+  ShadowWish wish{document().shown(), product, {row / beams, row % beams, EchogramHeight::range}, {}, 1e-4};
   wish.range = echogram_range(shown().sector(), {}, wish.of);
   EchogramShadows shadows;
   int pictures = 0;

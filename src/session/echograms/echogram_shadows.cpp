@@ -19,7 +19,7 @@ using SchoolsByPing = std::map<std::int64_t, std::vector<const PingMask*>>;
 SchoolsByPing schools_by_ping(const ShadowWish& wish) {
   const auto casts = [&](const SchoolMask& mask) {
     const auto school = std::ranges::find(wish.product->schools, mask.school_id, &SchoolRow::school_id);
-    return wish.rejected || school == wish.product->schools.end() || school->status != "rejected";
+    return school == wish.product->schools.end() || school->status != "rejected";
   };
   const int beams = wish.open->sector().beams();
   const auto shown = [&](const Run& run) {
@@ -79,12 +79,13 @@ void EchogramShadows::work_out(const ShadowWish& wish, const CancelToken& token,
                                const std::function<void()>& before_each, const std::function<void()>& more) {
   int fresh = 0;
   for (const auto& [ping, schools] : schools_by_ping(wish)) {
+    if (token.cancelled()) return;
     const Hash128 hash = hash_of(schools);
     {
       const std::lock_guard lock(mutex_);
+      turn_to(wish);
       if (kept(ping, hash) != nullptr) continue;
     }
-    if (token.cancelled()) return;
     before_each();
     Kept made{hash, shadow_in(wish, ping, schools)};
     {

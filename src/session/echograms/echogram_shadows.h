@@ -18,11 +18,10 @@ namespace sonar {
 /// What the shadow in an echogram of beams depends on.
 struct ShadowWish {
   OpenObservationPtr open;
-  ProductPtr product;  ///< its schools cast the shadow
+  ProductPtr product;  ///< its schools that nobody rejected cast the shadow
   EchogramOf of;
   EchogramRange range;
   double least_db = 1.0;  ///< two-way loss
-  bool rejected = true;   ///< rejected schools count too
 };
 
 /// The shadow that schools cast on an echogram, ping by ping: worked out where pictures are made, since each ping has to be

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -285,6 +286,16 @@ TEST(FuzzyArea, KeepsWhatIsSurer) {
   const auto mask = std::make_shared<const PingMask>(PingMask{{{3, 10, 4}, {4, 7, 1}}, {100, 30, 200, 51, 20}});
   EXPECT_EQ(fuzzy_area(mask, 0.0), mask);
   EXPECT_EQ(*fuzzy_area(mask, 0.2), (PingMask{{{3, 10, 1}, {3, 12, 1}}, {100, 200}}));  // 51 / 255 is not above 0.2
+}
+
+TEST(SchoolsOf, WhatAHumanRejectedCastsNoShadow) {
+  const auto mask = std::make_shared<const PingMask>(PingMask{{{3, 10, 1}}, {255}});
+  const std::vector<MaskLayer> layers{mask_layer(nullptr, {}, "accepted"), mask_layer(mask, {}, "rejected")};
+  EXPECT_TRUE(schools_of(layers).empty());
+  for (const char* status : {"unreviewed", "accepted", "corrected"}) {
+    const std::vector<MaskLayer> layer{mask_layer(mask, {}, status)};
+    EXPECT_EQ(schools_of(layer), std::vector<const PingMask*>{mask.get()}) << status;
+  }
 }
 
 // At any size: whole within the axes, off the school, off the ship and off all other words.

@@ -19,10 +19,11 @@ bool heading_known(const OpenObservation& observation, std::int64_t ping) {
   return std::isfinite(observation.files().navigation[static_cast<std::size_t>(ping)].heading_deg);
 }
 
-/// All that the ping's schools are measured with.
+/// The ping's schools that take sound out of its beams: none that a human rejected.
 std::vector<const PingMask*> schools_in(const Document& document, std::int64_t ping_index) {
   std::vector<const PingMask*> masks;
   for (const auto& school : document.state().schools) {
+    if (school->masks.decided.status == "rejected") continue;
     if (const auto* there = in_ping(school->masks, ping_index)) masks.push_back(&there->mask);
   }
   return masks;

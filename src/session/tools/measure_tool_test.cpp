@@ -4,7 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -262,6 +266,49 @@ TEST(MeasureCorrected, FiguresAreThoseOfASchoolThatIsCorrected) {
   app.settle();
   ASSERT_TRUE(app.document().state().schools.empty());
   EXPECT_EQ(app.workspace().measurement()->area.extinction_db, 0.0) << "no school is left to take sound out";
+}
+
+// What a human says is no fish takes nothing from the school behind it, which lies some samples farther in the same beams;
+// its own row tells what it would be as fish, as it did before.
+TEST(MeasureCorrected, ARejectedSchoolTakesNothingFromTheOneBehindIt) {
+  Recipe recipe;
+  recipe.measure.extinction.correct = true;
+  recipe.measure.extinction.ratio = 20.0;
+  SlicesApp app(recipe);
+  app.look_at_bright();
+  app.workspace().tool.set(ToolName::seed);
+  app.click(app.side(), SlicesApp::bright().voxel);
+  app.settle();
+  std::map<int, int> ends;  // of the near school, by row
+  for (const sonar::Run& run : app.document().state().schools.at(0)->masks.pings.front().mask.runs) {
+    ends[run.row] = std::max(ends[run.row], run.end());
+  }
+  BrushCommand behind;
+  for (const auto& [row, end] : ends) {
+    behind.runs.push_back({app.document().shown()->grid().channel[static_cast<std::size_t>(row)], end + 5, 6});
+  }
+  app.document().act(app.document().ping(), behind);
+  app.settle();
+  ASSERT_EQ(app.document().state().schools.size(), 2U);
+  const auto row_of = [&](std::size_t school) {
+    const std::int64_t number = app.document().state().schools.at(school)->number;
+    const ProductPtr product = app.document().product(0);
+    const auto found = std::ranges::find(product->school_pings, number, &SchoolPingRow::school_id);
+    return found == product->school_pings.end() ? SchoolPingRow{} : *found;
+  };
+  const SchoolPingRow near = row_of(0);
+  const SchoolPingRow far = row_of(1);
+  ASSERT_GT(near.extinction_loss_db, 0.1);
+  ASSERT_GT(far.extinction_loss_db, 0.9 * near.extinction_loss_db);
+  const SchoolKey key = key_of(app.document().state().schools.at(0)->masks, app.document().shown()->context());
+  app.document().act(DecideCommand{{{key, "rejected", {}, {}}}, ""});
+  app.settle();
+  EXPECT_LT(row_of(1).extinction_loss_db, 0.5 * far.extinction_loss_db) << "its own water alone";
+  EXPECT_EQ(row_of(0).extinction_loss_db, near.extinction_loss_db);
+  EXPECT_EQ(row_of(0).backscatter_m2, near.backscatter_m2);
+  app.ask("edit.undo");
+  app.settle();
+  EXPECT_EQ(row_of(1).extinction_loss_db, far.extinction_loss_db);
 }
 
 TEST_F(MeasureAtWork, EscapeEndsADragAndForgetsWhatWasMeasured) {
