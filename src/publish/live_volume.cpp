@@ -276,9 +276,9 @@ Result<void> LiveVolume::State::draw(const LiveVolumeInput& input, const Staged&
   }
   VolumeFigure figure = figure_of(input);
   take_trails(figure, input, place);
-  take_shadow(figure, input, nearer);
   const auto camera = volume_camera(*input.sector, input.options, place.rays);
   if (!camera) return pass_on(camera);
+  take_shadow(figure, input, nearer);  // of what is `drawn` from here on, or forgotten
   const VolumeCut wanted_cut = volume_cut(*input.sector, input.options, *camera, input.fan, input.beam);
   if (auto done = set(input, wanted_cut, figure.outlined); !done) {
     // What the renderer holds now is not known.

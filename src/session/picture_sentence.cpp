@@ -55,7 +55,9 @@ std::string what(const AppModel& app, const PictureDock& dock) {
       std::find_if(kSliceDocks.begin(), kSliceDocks.end(), [&](const auto& one) { return one.first == dock.id; });
   if (slice != kSliceDocks.end()) return slice_words(app.workspace, slice->second);
   const MotionBetween& motion = app.workspace.motion();
-  if (dock.id != "volume" || motion.from == nullptr || motion.to == nullptr) return dock.title;
+  // What has been left is not drawn any more.
+  const bool moves = motion.from && motion.to && motion.from == app.workspace.document.staged();
+  if (dock.id != "volume" || !moves) return dock.title;
   return fmt::format("{}, interpolated between pings {} and {}", dock.title, motion.from->ping_index,
                      motion.to->ping_index);
 }

@@ -10,6 +10,8 @@
 namespace sonar {
 namespace {
 
+constexpr const char* kWaits = "measuring; the strongest school is shown when all are measured";
+
 bool unreviewed_first(const SurveySchool& a, const SurveySchool& b) {
   const bool a_waits = a.decided().status == "unreviewed";
   const bool b_waits = b.decided().status == "unreviewed";
@@ -30,6 +32,9 @@ Review::Review(Workspace& workspace, const Preferences& preferences)
     if (change != DocumentChange::progress || !goes_on_ || this->workspace().document.measuring()) return;
     goes_on_ = false;
     next();
+    // Nobody waits any more: the status line must not say so.
+    Document& document = this->workspace().document;
+    if (!goes_on_ && document.notices().back() == kWaits) document.tell("measuring has ended");
   });
 }
 
@@ -77,7 +82,7 @@ void Review::next() {
     break;
   }
   goes_on_ = waits_for_figures();
-  if (goes_on_) return document.tell("measuring; the strongest school is shown when all are measured");
+  if (goes_on_) return document.tell(kWaits);
   const auto at = selected();
   const std::size_t count = schools().size();
   for (std::size_t i = 0; i < count; ++i) {

@@ -147,6 +147,7 @@ TEST_F(ReviewAtWork, WhileSchoolsAreMeasuredTheNextOneWaitsForTheStrongest) {
   document().settle();
   ASSERT_TRUE(asked);
   ASSERT_TRUE(workspace().school()) << "it goes there by itself";
+  EXPECT_THAT(document().notices().back(), testing::Not(HasSubstr("when all are measured"))) << "it waits no longer";
   EXPECT_EQ(review().selected(), 0U);
   const double most_m2 = std::get<double>(review().cell(0, backscatter_column()).key);
   for (std::size_t row = 1; row < review().rows(); ++row) {

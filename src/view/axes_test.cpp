@@ -222,6 +222,11 @@ TEST(Title, ANarrowPictureLosesWhatSaysLeast) {
   const auto narrow = title_in({320, 240}, lines, time);
   EXPECT_TRUE(said(narrow, "08:00:50.350 UTC"));
   EXPECT_TRUE(said(narrow, slice)) << "whole";
+  // As a window of 1280 x 800 has it: where the slice is, before when.
+  const auto small = title_in({338, 229}, lines, time, 12.0);
+  EXPECT_FALSE(said(small, "08:00:50.350 UTC"));
+  EXPECT_TRUE(std::ranges::any_of(
+      small, [](const TextItem& t) { return t.text.starts_with("Top: fan 17, elevation -4.7\u00B0"); }));
   const std::string survey = "Fish schools of SYNTHETIC survey, made by somebody";
   EXPECT_TRUE(said(title_in({1200, 900}, {survey}, ""), survey));
   EXPECT_TRUE(said(title_in({260, 240}, {survey}, ""), "SYNTHETIC survey, made by somebody"));

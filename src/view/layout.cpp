@@ -124,8 +124,10 @@ void add_title(FrameDescription& frame, const Layout& layout, const Theme& theme
   const double right_width = width_at(right_size);
   const bool beside = fits_at(right_size);
   const bool below = !beside && shown > 1;
-  // It stays away where it would leave no room to the second line's own words.
-  const bool stays = !right.empty() && (beside || layout.title.width - right_width > 8.0 * theme.text_px);
+  // It stays away where it would take more than half of the second line's own words.
+  const double own = below ? 0.5 * text_width_px(lines[1].c_str(), theme.text_px) : 0.0;
+  const bool stays =
+      !right.empty() && (beside || layout.title.width - right_width > std::max(8.0 * theme.text_px, own));
   double y = layout.title.y + 0.6 * theme.title_px;
   for (std::size_t i = 0; i < shown; ++i) {
     const bool first = i == 0;

@@ -11,7 +11,6 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSpinBox>
-#include <QTimer>
 #include <QTreeView>
 #include <fstream>
 #include <functional>
@@ -31,14 +30,8 @@ class Asked : public WindowAtWork {
  protected:
   /// What a menu's entry does, and hands upon the dialog that it opens.
   void trigger(const std::string& id, const std::function<void(QDialog&)>& answer = {}) {
-    if (answer) {
-      QTimer::singleShot(0, window_.get(), [answer] {
-        auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
-        ASSERT_NE(dialog, nullptr);
-        answer(*dialog);
-      });
-    }
-    find_action(*window_, id)->trigger();
+    QAction* entry = find_action(*window_, id);
+    answer ? with_dialog([entry] { entry->trigger(); }, answer) : entry->trigger();
     settle();
   }
   static void press_button(QDialog& dialog, QDialogButtonBox::StandardButton which) {

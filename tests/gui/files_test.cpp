@@ -137,7 +137,6 @@ TEST_F(Files, ResultsOpenWithoutTheirRawFilesUntilTheseAreFound) {
   EXPECT_EQ(document().state().schools.size(), 2U);
 }
 
-// Found by its name, changed and used, by hand; what is saved on the way is a recipe that a run reads.
 TEST_F(Files, ASurveyIsReopenedWhereAndAsItWasLeft) {
   app_->preferences.path = out_ / "preferences.json";
   key(Qt::Key_D);
@@ -184,6 +183,7 @@ TEST_F(Files, FilesAreOpenedByTheirDialogAndByDropping) {
   EXPECT_TRUE(document().staged());
 }
 
+// Found by its name, changed and used, by hand; what is saved on the way is a recipe that a run reads.
 TEST_F(Files, ARecipeIsChangedInItsDialog) {
   QTimer::singleShot(0, window_.get(), [this] {
     auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());

@@ -7,9 +7,7 @@
 #include <QClipboard>
 #include <QHeaderView>
 #include <QImage>
-#include <QInputDialog>
 #include <QLineEdit>
-#include <QTimer>
 #include <QTreeView>
 #include <algorithm>
 
@@ -299,13 +297,13 @@ TEST_F(Lists, SpeciesAndCommentsAreOfAllRowsThatAreSelected) {
   const auto chosen = workspace().chosen_schools();
   ASSERT_EQ(chosen.size(), 2U);
   key(Qt::Key_2);
-  QTimer::singleShot(0, window_.get(), [] {
-    auto* dialog = qobject_cast<QInputDialog*>(QApplication::activeModalWidget());
-    ASSERT_NE(dialog, nullptr);
-    QTest::keyClicks(dialog->findChild<QLineEdit*>(), "two layers");
-    QTest::keyClick(dialog->findChild<QLineEdit*>(), Qt::Key_Return);
-  });
-  find_action(*window_, "school.comment")->trigger();
+  with_dialog([this] { find_action(*window_, "school.comment")->trigger(); },
+              [](QDialog& dialog) {
+                auto* line = dialog.findChild<QLineEdit*>();
+                ASSERT_NE(line, nullptr);
+                QTest::keyClicks(line, "two layers");
+                QTest::keyClick(line, Qt::Key_Return);
+              });
   settle();
   for (const SurveySchool& school : survey_schools(document())) {
     const bool one_of_them = chosen.contains(school.name);

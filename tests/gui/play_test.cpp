@@ -2,9 +2,8 @@
 // Playing through pings, on a clock that the test turns.
 #include <gtest/gtest.h>
 
-#include <QInputDialog>
+#include <QAction>
 #include <QLineEdit>
-#include <QTimer>
 
 #include "clocked_window.h"
 #include "gui/action_menus.h"
@@ -98,15 +97,14 @@ TEST_F(Playing, CtrlSpaceHasTheFirstPingComeAfterTheLast) {
 
 TEST_F(Playing, AnyRateIsTypedInAndWhatIsNoneIsRefused) {
   const auto type_rate = [this](const char* typed) {
-    QTimer::singleShot(0, window_.get(), [typed] {
-      auto* dialog = qobject_cast<QInputDialog*>(QApplication::activeModalWidget());
-      ASSERT_NE(dialog, nullptr);
-      auto* line = dialog->findChild<QLineEdit*>();
-      line->selectAll();
-      QTest::keyClicks(line, typed);
-      QTest::keyClick(line, Qt::Key_Return);
-    });
-    find_action(*window_, "ping.rate")->trigger();
+    with_dialog([this] { find_action(*window_, "ping.rate")->trigger(); },
+                [typed](QDialog& dialog) {
+                  auto* line = dialog.findChild<QLineEdit*>();
+                  ASSERT_NE(line, nullptr);
+                  line->selectAll();
+                  QTest::keyClicks(line, typed);
+                  QTest::keyClick(line, Qt::Key_Return);
+                });
     settle_jobs();
   };
   type_rate("4");

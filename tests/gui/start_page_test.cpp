@@ -4,6 +4,7 @@
 #include <QCommandLinkButton>
 #include <QLabel>
 #include <QPushButton>
+#include <QScopeGuard>
 #include <QToolButton>
 
 #include "gui/action_menus.h"
@@ -69,6 +70,8 @@ TEST_F(StartPage, TheDemoAndItsTutorialAreAClickAway) {
   std::filesystem::copy(TestSurvey::easy().folder(), made, std::filesystem::copy_options::recursive);
   std::filesystem::create_directories(made / "truth" / "complete");
   const QByteArray before = qgetenv("XDG_CACHE_HOME");
+  const auto put_back =
+      qScopeGuard([&before] { before.isNull() ? qunsetenv("XDG_CACHE_HOME") : qputenv("XDG_CACHE_HOME", before); });
   qputenv("XDG_CACHE_HOME", cache.c_str());
   auto* demo = window_->findChild<QPushButton*>("start.file.demo");
   ASSERT_TRUE(demo->isVisible());
@@ -85,7 +88,6 @@ TEST_F(StartPage, TheDemoAndItsTutorialAreAClickAway) {
   settle();
   EXPECT_EQ(shown.filename(), "tutorial.md");
   EXPECT_EQ(document().paths(), std::vector{made});
-  before.isNull() ? qunsetenv("XDG_CACHE_HOME") : qputenv("XDG_CACHE_HOME", before);
 }
 
 TEST_F(StartPage, IsUsedByKeysAlone) {

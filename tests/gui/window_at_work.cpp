@@ -2,6 +2,7 @@
 #include "window_at_work.h"
 
 #include <QScreen>
+#include <QTimer>
 #include <QToolButton>
 #include <QWheelEvent>
 #include <algorithm>
@@ -83,6 +84,21 @@ void WindowAtWork::wheel(const std::string& dock, PixelPoint at, int steps, Qt::
   QWheelEvent event(place, on->mapToGlobal(place), {}, {0, 120 * steps}, Qt::NoButton, keys, Qt::NoScrollPhase, false);
   QApplication::sendEvent(on, &event);
   settle();
+}
+
+void WindowAtWork::with_dialog(const std::function<void()>& opens, const std::function<void(QDialog&)>& hands) {
+  QTimer looks;
+  QObject::connect(&looks, &QTimer::timeout, window_.get(), [&looks, &hands] {
+    auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+    if (dialog == nullptr || !dialog->isVisible()) return;  // not yet
+    looks.stop();
+    hands(*dialog);
+    EXPECT_FALSE(dialog->isVisible()) << "nothing ended it";
+    if (dialog->isVisible()) dialog->reject();
+  });
+  looks.start(0);
+  opens();
+  EXPECT_FALSE(looks.isActive()) << "no dialog was opened";
 }
 
 void WindowAtWork::unfold(const char* section) {

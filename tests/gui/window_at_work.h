@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QDialog>
 #include <QDockWidget>
 #include <QPixmap>
 #include <QTest>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -108,6 +110,8 @@ class WindowAtWork : public testing::Test {
     QTest::keyClick(window_->windowHandle(), key, keys);
     settle();
   }
+  /// What opens a dialog, and hands upon that. One that they leave open fails the test, and does not hold it for ever.
+  void with_dialog(const std::function<void()>& opens, const std::function<void(QDialog&)>& hands);
   /// A control of the panel; its section is unfolded by a click where it is folded.
   template <class Control>
   Control& control(const char* section, const char* name) {

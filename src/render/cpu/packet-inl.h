@@ -144,7 +144,7 @@ class Packet {
       const V below = hn::IfThenElse(is_set<kGapsBit>(word), set(-1.0F), set(1.0F));
       before_ = hn::IfThenElse(passed, below, before_);
       before_u_ = hn::IfThenElse(passed, hn::Min(exit, to_), before_u_);
-      masks_.pass(passed, hn::Min(exit, to_), none());
+      if (view_.masked) masks_.pass(passed, hn::Min(exit, to_), none());
     }
     if (any(thin)) {
       counts.segments += static_cast<std::int64_t>(hn::CountTrue(D(), thin));
@@ -284,6 +284,7 @@ class Packet {
 
   /// What is left of masks behind the last sample, up to u.
   void meet_rest(M passed, V u) {
+    if (!view_.masked) return;
     const M lanes = hn::And(passed, masks_.near());
     if (!any(lanes)) return;
     Rgb emission{zero(), zero(), zero()};

@@ -101,9 +101,13 @@ Result<BuiltEchogram> built_echogram(const EchogramWish& wish, PixelSize size) {
   if (wish.state && wish.open) add_marked(panel.observation, *wish.state, *wish.open);
   if (wish.heights) panel.style.shown_heights = wish.heights;
   const bool two = wish.below && size.height >= kTwoFrom_em * theme.text_px;
+  const bool left_out = wish.below && !two;
   const double room_px = two ? upper_height(size) : size.height;
-  panel.style.brief = room_px < kTitleFrom_em * theme.text_px || size.width < kColoursFrom_em * theme.text_px;
+  panel.style.brief =
+      left_out || room_px < kTitleFrom_em * theme.text_px || size.width < kColoursFrom_em * theme.text_px;
   if (!panel.style.brief) panel.observation.label.clear();  // the title says it
+  // First what is missing: what the beam is may be cut.
+  if (left_out) panel.observation.label.insert(0, "too low for two sounders; ");
   auto places = std::make_shared<EchogramPlaces>();
   places->heights = drawn.heights;
   if (!two) {

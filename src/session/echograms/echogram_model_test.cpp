@@ -14,6 +14,7 @@
 
 #include "pipeline/stages/voxel_statistics.h"
 #include "publish/picture.h"
+#include "session/echograms/echogram_build.h"
 #include "session/echograms/test_with_ek60.h"
 #include "session/test_survey.h"
 
@@ -303,6 +304,27 @@ TEST_F(EchogramWithEk60, ItsChannelsLieBelowUnderTheSameTime) {
   echogram_.set_other_below(false);
   settle();
   EXPECT_FALSE(echogram_.places()->below);
+}
+
+TEST_F(EchogramWithEk60, APictureTooLowForBothSaysSo) {
+  EchogramWish wish;
+  wish.survey = document().survey_files();
+  wish.open = document().shown();
+  wish.of = {*echogram_.name(), nullptr};
+  wish.below = echogram_.places()->below->of;
+  const auto says = [&](PixelSize size) {
+    const auto built = built_echogram(wish, size);
+    EXPECT_TRUE(built);
+    return built && std::ranges::any_of(built->frame.items, [](const auto& item) {
+             const auto* text = std::get_if<TextItem>(&item);
+             return text != nullptr && text->text.starts_with("too low for two sounders");
+           });
+  };
+  EXPECT_TRUE(says({400, 160}));
+  EXPECT_TRUE(says({900, 270}));
+  EXPECT_FALSE(says({900, 500}));
+  wish.below.reset();
+  EXPECT_FALSE(says({400, 160}));
 }
 
 TEST_F(EchogramWithEk60, AFileShowsBothToo) {

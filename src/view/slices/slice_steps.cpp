@@ -24,8 +24,7 @@ constexpr double kSmall = 0.9;         ///< its text, of the theme's
 constexpr double kGap_em = 0.7;        ///< between pictures
 constexpr double kSign = 0.1;          ///< size of signs in the picture of a step, of its height
 constexpr double kLeastPlot_em = 6.0;  ///< height of a picture, before lines of words are left out
-constexpr double kWordsFrom_em =
-    7.0;  ///< so narrow, a picture has its number alone: of words only a letter would be left
+constexpr double kWordsFrom_em = 7.0;  ///< a narrower picture has its number alone: words would be cut to a letter
 constexpr double kLeast_px = 12.0;
 constexpr double kRowShare = 0.24;  ///< of the height, for the row of all steps below two that are compared
 

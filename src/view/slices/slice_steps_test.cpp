@@ -185,7 +185,6 @@ TEST_F(ThreeSteps, AreDrawnInSmallDocksAndManyOfThemToo) {
   }
 }
 
-// By hand: 8 fans of 7 beams of 41 samples.
 // Of a name and its words either more than a letter is left or nothing: a number is enough, and the pointer tells the rest.
 TEST_F(ThreeSteps, InANarrowDockNumbersStandAlone) {
   while (data_.steps.size() < 12) data_.steps.push_back(data_.steps[2]);
@@ -207,6 +206,7 @@ TEST_F(ThreeSteps, InANarrowDockNumbersStandAlone) {
   EXPECT_TRUE(names && numbers);
 }
 
+// By hand: 8 fans of 7 beams of 41 samples.
 TEST(SamplesIn, AreThoseOfAFanABeamOrARange) {
   const Sector sector = hand_sector();
   const auto top = samples_in(sector, TopSlice{4});
