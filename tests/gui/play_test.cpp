@@ -133,12 +133,12 @@ TEST_F(Playing, MotionIsInterpolatedWhereThatIsAskedForAndMarked) {
     ASSERT_EQ(document().ping(), 0);
     ASSERT_TRUE(volume.shown());
   };
-  half_way();
+  ASSERT_NO_FATAL_FAILURE(half_way());
   const Image measured = volume.image();
   EXPECT_EQ(volume.shown()->ping_index, 0);
   press(Qt::Key_Space);
   press(Qt::Key_9, Qt::ControlModifier);
-  half_way();
+  ASSERT_NO_FATAL_FAILURE(half_way());
   EXPECT_EQ(volume.shown()->ping_index, -1);
   EXPECT_NE(volume.image(), measured);
   const auto said = [this] { return picture_sentence(*app_, "volume").find("interpolated") != std::string::npos; };
