@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <QDialog>
-#include <QTimer>
+#include <QLabel>
+#include <QTest>
+#include <algorithm>
 #include <cstdlib>
 
 #include "window_at_work.h"
@@ -62,15 +64,19 @@ TEST_F(Guide, Pictures) {
   key(Qt::Key_Escape);  // with nothing selected the review begins with what scatters most
   app_->actions.find("review.next")->run();
   keep("guide-review.png");
-  keep_dock("echogram", "guide-echogram.png");
   keep_dock("chart", "guide-chart.png");
-  QTimer::singleShot(300, window_.get(), [this] {
-    auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
-    ASSERT_NE(dialog, nullptr);
-    EXPECT_TRUE(dialog->grab().save(QString::fromStdString((out_ / "guide-recipe.png").string())));
-    dialog->reject();
-  });
-  app_->actions.find("file.recipe")->run();
+  with_dialog([this] { app_->actions.find("file.recipe")->run(); },
+              [this](QDialog& dialog) {
+                const auto told = [&dialog] {
+                  const auto labels = dialog.findChildren<QLabel*>();
+                  return std::ranges::count_if(
+                             labels, [](QLabel* label) { return label->text().contains("in this ping"); }) == 2;
+                };
+                EXPECT_TRUE(QTest::qWaitFor(told, 60'000));
+                settle();
+                EXPECT_TRUE(dialog.grab().save(QString::fromStdString((out_ / "guide-recipe.png").string())));
+                dialog.reject();
+              });
   window_->activateWindow();
   window_->setFocus();
   settle();
