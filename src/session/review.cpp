@@ -30,17 +30,21 @@ Review::Review(Workspace& workspace, const Preferences& preferences)
     if (change == DocumentChange::survey) goes_on_ = false;
     if (change == DocumentChange::state) follow_act();
     if (change != DocumentChange::progress || !goes_on_ || this->workspace().document.measuring()) return;
-    goes_on_ = false;
+    wait_no_longer();
     next();
-    // Nobody waits any more: the status line must not say so.
-    Document& document = this->workspace().document;
-    if (!goes_on_ && document.notices().back() == kWaits) document.tell("measuring has ended");
   });
 }
 
 void Review::school_selected() {
-  goes_on_ = false;  // a human has gone elsewhere
+  wait_no_longer();  // it is the one, or a human has gone elsewhere
   SchoolTable::school_selected();
+}
+
+void Review::wait_no_longer() {
+  if (!goes_on_) return;
+  goes_on_ = false;
+  Document& document = workspace().document;
+  if (document.notices().back() == kWaits) document.tell("no longer waiting for the strongest school");
 }
 
 bool Review::waits_for_figures() const {

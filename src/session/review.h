@@ -73,6 +73,8 @@ class Review : public SchoolTable {
  private:
   [[nodiscard]] bool waits(const SurveySchool& school) const;
   [[nodiscard]] bool waits_for_figures() const;
+  /// The status line must not say that somebody waits who does not.
+  void wait_no_longer();
   void go_to(const SchoolName& school);
   void go_back();
   void follow_act();
