@@ -119,8 +119,6 @@ class PingDetector {
   /// out  whether it found one, or the component belongs to one that was found before
   bool refine(const Runs& component, double reference_db) {
     held_ = false;
-    sought_db_ = reference_db - params_.tolerance_db;
-    thresholder_.seek(sought_db_);
     const IndexBox box = box_of_runs(component, echo_.sv.shape().beams)
                              .enlarged(SearchReach::fans, SearchReach::beams, SearchReach::samples)
                              .clipped(echo_.sv.shape());
@@ -187,7 +185,6 @@ class PingDetector {
       settler_.emplace(echo_.sv, echo_.unfiltered, echo_.flags, echo_.background, echo_.water, params_.tolerance_db,
                        echo_.peaked, taken_);
     }
-    settler_->seek(sought_db_);
     std::vector<MemberSettler::Settled> schools = settler_->settle(
         part, depth_db, [this](const Runs& runs) { return large_enough(runs); }, claimed_.view());
     for (MemberSettler::Settled& school : schools) {
@@ -226,7 +223,8 @@ class PingDetector {
     } else if (detection.evidence >= kLeastEvidence) {
       held_ = true;
       detection.loudest = loudest(detection.mask.runs);
-      detection.pieces = echo_pieces(echo_, thresholder_, detection.box, detection.reference_db);
+      detection.pieces =
+          echo_pieces(echo_, thresholder_, detection.box, detection.reference_db, detection.threshold_db);
       found_.push_back(std::move(detection));
     }
   }
@@ -244,7 +242,6 @@ class PingDetector {
     Reason reason;
   };
   std::optional<Refusal> refusal_;  ///< of the component in hand
-  double sought_db_ = 0.0;          ///< where the component's members are sought at first
   bool held_ = false;               ///< it has its school, or is another's
 };
 

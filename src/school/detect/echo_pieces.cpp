@@ -8,6 +8,7 @@
 
 #include "base/units.h"
 #include "school/detect/detect_params.h"
+#include "school/evidence/seeds.h"
 
 namespace sonar {
 namespace {
@@ -36,8 +37,8 @@ double mean_of(const std::int16_t* counts, const SampleFlags* flags, int first, 
 
 }  // namespace
 
-EchoPieces echo_pieces(const PingEcho& echo, const Thresholder& thresholder, const IndexBox& mask,
-                       double reference_db) {
+EchoPieces echo_pieces(const PingEcho& echo, const Thresholder& thresholder, const IndexBox& mask, double reference_db,
+                       double threshold_db) {
   constexpr int kSamples = EchoPieces::kSamples;
   IndexBox box = mask.enlarged(SearchReach::fans, SearchReach::beams, SearchReach::samples);
   box.first_sample -= box.first_sample % kSamples;  // the same pieces in every ping
@@ -48,6 +49,7 @@ EchoPieces echo_pieces(const PingEcho& echo, const Thresholder& thresholder, con
   if (shape.size() > EchoPieces::kMost) return {};
   EchoPieces out{box, linear_from_db(reference_db) / kUnitsOfReference, Array3<std::int16_t>(shape, kNoData),
                  Array3<std::int16_t>(shape)};
+  const double threshold_sv = linear_from_db(threshold_db);
   std::vector<double> water_sv(static_cast<std::size_t>(pieces));
   for (int fan = 0; fan < shape.fans; ++fan) {
     for (int beam = 0; beam < shape.beams; ++beam) {
@@ -62,7 +64,10 @@ EchoPieces echo_pieces(const PingEcho& echo, const Thresholder& thresholder, con
         const double water = water_sv[static_cast<std::size_t>(piece)];
         out.water(fan, beam, piece) = in_units(water, out.unit_sv);
         if (any_never(flags, first, end)) continue;
-        const bool told = std::isfinite(mean) && thresholder.may_be_sought(row, (first + end) / 2);
+        // Other sightings would take a loud seabed's edge for the school.
+        const bool loud = water >= threshold_sv;
+        const bool told =
+            std::isfinite(mean) && (!loud || evidence_of({{{row, first, end - first}}, {}}, echo.water) > 0.0);
         out.own(fan, beam, piece) = told ? in_units(mean - water, out.unit_sv) : EchoPieces::kUnheard;
       }
     }

@@ -16,7 +16,8 @@ struct EchoPieces {
   /// Larger schools have so many voxels that fading moves their border little; theirs is not kept.
   static constexpr std::size_t kMost = 40000;
 
-  /// A piece that may be a school's, of which faults let nothing be heard in this ping.
+  /// A piece that may be a school's, of which nothing is heard in this ping: faults overwrite it, or the water is as loud
+  /// as the school and it does not stand out.
   static constexpr std::int16_t kUnheard = -32767;
 
   IndexBox box;              ///< its samples are those of whole pieces, but where the record ends
@@ -29,10 +30,11 @@ struct EchoPieces {
   [[nodiscard]] int piece(int sample) const { return (sample - box.first_sample) / kSamples; }
 };
 
-/// mask        of the detection
-/// thresholder  knows the background
-/// out          empty where it would hold more than kMost pieces
+/// mask                        of the detection
+/// reference_db, threshold_db  of the detection
+/// thresholder                 knows the background
+/// out                         empty where it would hold more than kMost pieces
 [[nodiscard]] EchoPieces echo_pieces(const PingEcho& echo, const Thresholder& thresholder, const IndexBox& mask,
-                                     double reference_db);
+                                     double reference_db, double threshold_db);
 
 }  // namespace sonar

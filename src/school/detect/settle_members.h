@@ -29,9 +29,6 @@ class MemberSettler {
                 View3<const SampleFlags> flags, const Background& background, const WaterLevels& water,
                 double tolerance_db, bool peaked, const PingMask* taken);
 
-  /// As Thresholder's.
-  void seek(double level_db) { thresholder_.seek(level_db); }
-
   struct Settled {
     PingMask mask;
     double reference_db = 0.0;

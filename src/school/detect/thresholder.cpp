@@ -7,7 +7,6 @@
 #include <cstddef>
 
 #include "base/units.h"
-#include "school/detect/detect_params.h"
 #include "school/recorded_ends.h"
 
 namespace sonar {
@@ -91,39 +90,10 @@ int Thresholder::RowWater::reach(int sample) const {
   return water_ == nullptr ? 0 : static_cast<int>(at_place(reach_, sample));
 }
 
-int Thresholder::RowWater::loudest(int sample) const {
-  return mean(sample) + static_cast<int>(kLeastEvidence * reach(sample));
-}
-
 Thresholder::Thresholder(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& background,
                          const WaterLevels* water, const PingMask* taken)
     : sv_(sv), flags_(flags), background_(background), water_(water), taken_(taken), ends_(recorded_ends(flags)) {
   if (taken_ != nullptr) taken_rows_ = index_rows(taken_->runs, sv.shape().rows());
-}
-
-void Thresholder::seek(double level_db) {
-  sought_ = rounded_counts(counts_from_db(level_db));
-  if (!evident_.empty() || water_ == nullptr || !water_->known()) return;
-  const auto blocks = static_cast<std::size_t>(water_->blocks);
-  evident_.assign(sv_.shape().rows() * blocks, 0);
-  for (const EchoCell& cell : water_->cells) {
-    evident_[static_cast<std::size_t>(cell.row) * blocks + static_cast<std::size_t>(cell.block)] = 1;
-  }
-}
-
-bool Thresholder::evident(int row, int sample) const {
-  if (evident_.empty()) return false;
-  const auto block = std::min(sample / water_->block_samples, water_->blocks - 1);
-  return evident_[static_cast<std::size_t>(row) * static_cast<std::size_t>(water_->blocks) +
-                  static_cast<std::size_t>(block)] != 0;
-}
-
-bool Thresholder::may_be_sought(const RowWater& water, int row, int sample) const {
-  return water.loudest(sample) < sought_ || evident(row, sample);
-}
-
-bool Thresholder::may_be_sought(int row, int sample) const {
-  return may_be_sought(RowWater(background_, water_, row, sv_.shape().beams), row, sample);
 }
 
 void Thresholder::cut(int row, int first, int end, std::vector<Run>& runs) const {
@@ -183,7 +153,7 @@ std::vector<Run> Thresholder::above(const IndexBox& box, double level_db, double
         if (counts[s] < level || counts[s] == kNoData || any(flags[s] & kNeverMember)) return false;
         const int mean = water.mean(s);
         return counts[s] >= level_sum(level, mean + median_of_mean_counts()) &&
-               counts[s] >= mean + std::max(least, water.reach(s)) && may_be_sought(water, row, s);
+               counts[s] >= mean + std::max(least, water.reach(s));
       };
       collect(row, box.first_sample, box.last_sample + 1, member, runs);
     }

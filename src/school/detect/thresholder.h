@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -28,20 +27,13 @@ class Thresholder {
   Thresholder(View3<const std::int16_t> sv, View3<const SampleFlags> flags, const Background& background,
               const WaterLevels* water, const PingMask* taken = nullptr);
 
-  /// What is sought stands at level_db or above. Where the water by itself may reach that, as a loud seabed's edge does, echo
-  /// counts from now on only with evidence of its own: as much as kLeastEvidence. Before the first call it counts everywhere.
-  void seek(double level_db);
-
   /// Runs of the whole ping whose median lies margin_db above the background's, sorted. margin_db > 0
   /// cost  about 1 ms for 25 x 20 x 1320
   [[nodiscard]] std::vector<Run> above_background(double margin_db) const;
 
   /// Runs inside a box where the echo without its background reaches level_db, and the whole lies above the
-  /// background by least_db or more, and by more than the water itself does. The lower the level, the more.
+  /// background by least_db or more, and by more than the water itself does.
   [[nodiscard]] std::vector<Run> above(const IndexBox& box, double level_db, double least_db) const;
-
-  /// Whether echo at a sample may be what is sought, see seek().
-  [[nodiscard]] bool may_be_sought(int row, int sample) const;
 
   /// Mean background of a row at its samples first, first + step, ..., m^-1; 0 = none known.
   void background(int row, int first, int step, std::span<double> sv) const;
@@ -55,8 +47,6 @@ class Thresholder {
     [[nodiscard]] int mean(int sample) const;
     /// How far above that the water reaches by itself.
     [[nodiscard]] int reach(int sample) const;
-    /// Up to where an echo may be the water's.
-    [[nodiscard]] int loudest(int sample) const;
 
    private:
     template <class Value>
@@ -77,19 +67,13 @@ class Thresholder {
   template <class Member>
   void collect(int row, int first, int end, const Member& member, std::vector<Run>& runs) const;
 
-  /// Whether a sample lies in a block with evidence of its own.
-  [[nodiscard]] bool evident(int row, int sample) const;
-  [[nodiscard]] bool may_be_sought(const RowWater& water, int row, int sample) const;
-
   View3<const std::int16_t> sv_;
   View3<const SampleFlags> flags_;
   const Background& background_;
   const WaterLevels* water_;
   const PingMask* taken_;
   std::vector<int> taken_rows_;
-  std::vector<int> ends_;              ///< [fan], recorded_ends()
-  std::vector<std::uint8_t> evident_;  ///< [row][block of water_] 1 = it has a cell there; empty before seek()
-  int sought_ = std::numeric_limits<int>::max();
+  std::vector<int> ends_;  ///< [fan], recorded_ends()
 };
 
 }  // namespace sonar

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "base/units.h"
 #include "model/filtered_ping.h"
@@ -53,26 +52,6 @@ struct Water {
   Array3<std::int16_t> sv;
 };
 
-/// A layer at -62 dB, and a school of -70 dB before it.
-std::pair<PingMask, PingMask> above_minus_80_dB(double sought_db) {
-  const Water water(-62.0);
-  const test::FlatBackground flat(kShape);
-  const Background noise{flat.power_db, flat.calibration.view()};
-  const Array3<std::int16_t> means =
-      block_means(water.counts.view(), water.flags.view(), block_samples(water.sector.range()));
-  const WaterPing alone{&means, nullptr, noise};
-  const WaterLevels levels = water_levels({&alone, 1}, water.sector, kLeastEvidence).front();
-  Thresholder thresholder(water.counts.view(), water.flags.view(), noise, &levels);  // as they fade
-  const auto above = [&] {
-    PingMask mask;
-    mask.runs = thresholder.above(IndexBox::whole(kShape), -80.0, 1.5);
-    return mask;
-  };
-  PingMask before = above();
-  thresholder.seek(sought_db);
-  return {std::move(before), above()};
-}
-
 std::int64_t samples(const PingMask& mask, int first, int end) {
   std::int64_t sum = 0;
   for (const Run& run : mask.runs) sum += std::max(0, std::min(run.end(), end) - std::max(run.first_sample, first));
@@ -93,21 +72,6 @@ TEST(AboveBackground, ALayerStandsAboveTheNoiseAndNotAboveTheWater) {
   const Water water(-55.0);
   EXPECT_GT(samples(water.standing(3.0, Above::noise), 510, 550), 500 * 40 * 9 / 10);
   EXPECT_LT(samples(water.standing(3.0, Above::water), 510, 550), 500 * 40 / 100);
-}
-
-// Some of the layer's own echo rises above what is usual there; a school of its level would have to be told from it.
-TEST(Above, WaterThatReachesWhatIsSoughtNeedsEvidence) {
-  const auto [before, sought] = above_minus_80_dB(-80.0);
-  EXPECT_GT(samples(before, 505, 555), 200);
-  EXPECT_LT(samples(sought, 505, 555), samples(before, 505, 555) / 10);
-  EXPECT_GT(samples(before, 300, 490), 100);
-  EXPECT_EQ(samples(sought, 300, 490), samples(before, 300, 490));
-}
-
-// What is sought far above the layer is not taken for it.
-TEST(Above, WaterBelowWhatIsSoughtIsAskedForNone) {
-  const auto [before, sought] = above_minus_80_dB(-45.0);
-  EXPECT_EQ(sought.runs, before.runs);
 }
 
 TEST(AboveBackground, AClickThereStaysThereWhateverTheTolerance) {
