@@ -8,10 +8,8 @@
 #include <cmath>
 #include <cstddef>
 #include <ranges>
-#include <vector>
 
 #include "base/units.h"
-#include "view/free_place.h"
 #include "view/shapes.h"
 
 namespace sonar {
@@ -193,53 +191,36 @@ ScaleBar scale_bar(const MapFrame& map, PixelPoint left, double most_px, bool na
 
 namespace {
 
-/// Bars in a box of which one corner is known.
-std::array<ScaleBar, 2> scale_bars(const MapFrame& map, const Theme& theme, PixelPoint box) {
+std::array<ScaleBar, 2> scale_bars(const MapFrame& map, const Theme& theme) {
   const double em = theme.text_px;
   const double most_px = std::min(14.0 * em, 0.3 * map.place.width);
-  const PixelPoint from{box.x + 0.6 * em, box.y + 0.9 * em};
-  return {scale_bar(map, from, most_px, true, theme.units),
-          scale_bar(map, {from.x, from.y + 0.9 * em}, most_px, false, theme.units)};
-}
-
-/// Of the box, with the words behind the bars.
-double scale_bars_width(const MapFrame& map, const Theme& theme, PixelPoint box) {
-  const auto bars = scale_bars(map, theme, box);
-  return std::max(bars[0].to.x, bars[1].to.x) - bars[0].from.x + 5.4 * theme.text_px;
+  const double x = map.place.x + 1.2 * em;
+  const double y = map.place.y + map.place.height - 2.0 * em;
+  return {scale_bar(map, {x, y}, most_px, true, theme.units),
+          scale_bar(map, {x, y + 0.9 * em}, most_px, false, theme.units)};
 }
 
 }  // namespace
 
-std::optional<PixelRect> scale_bars_place(const MapFrame& map, const Theme& theme,
-                                          std::span<const PixelRect> kept_clear) {
+std::optional<PixelRect> scale_bars_place(const MapFrame& map, const Theme& theme) {
   constexpr double kLeastMap_em = 10.0;  // of a lower one they cover a quarter and more
-  constexpr double kArrow_em = 4.6;      // is left to the arrow at the right
   const double em = theme.text_px;
   if (map.place.height < kLeastMap_em * em) return std::nullopt;
-  const double height = 2.7 * em;
-  const PixelRect inside{map.place.x + 0.6 * em, map.place.y + 0.6 * em, map.place.width - (0.6 + kArrow_em) * em,
-                         map.place.height - 0.8 * em};
-  PixelRect corner{inside.x, inside.y + inside.height - height, 0.0, height};
-  corner.width = scale_bars_width(map, theme, {corner.x, corner.y});
-  std::vector<ConvexOutline> shapes;
-  for (const PixelRect& rect : kept_clear) shapes.push_back(outline_of(rect));
-  // A bar is as long as its place's scale has it: room for the longest.
-  double widest = corner.width;
-  for (const double x : {inside.x, inside.x + inside.width - corner.width}) {
-    for (const double y : {inside.y, corner.y}) widest = std::max(widest, scale_bars_width(map, theme, {x, y}));
-  }
-  auto place = free_place(inside, widest, height, Corner::lower_left, shapes);
-  if (!place) return corner;
-  place->width = scale_bars_width(map, theme, {place->x, place->y});
-  return place;
+  const auto bars = scale_bars(map, theme);
+  const PixelPoint from = bars[0].from;
+  const double longest = std::max(bars[0].to.x, bars[1].to.x) - from.x;
+  return PixelRect{from.x - 0.6 * em, from.y - 0.9 * em, longest + 5.4 * em, 2.7 * em};
 }
 
 namespace {
 
-void add_scale(FrameDescription& frame, const MapFrame& map, const Theme& theme, const PixelRect& place) {
+void add_scale(FrameDescription& frame, const MapFrame& map, const Theme& theme) {
   const double em = theme.text_px;
-  frame.items.emplace_back(rectangle_item(place, theme.halo, theme.grid, theme.line_px));
-  for (const ScaleBar& bar : scale_bars(map, theme, {place.x, place.y})) {
+  const auto place = scale_bars_place(map, theme);
+  if (!place) return;
+  const auto bars = scale_bars(map, theme);
+  frame.items.emplace_back(rectangle_item(*place, theme.halo, theme.grid, theme.line_px));
+  for (const ScaleBar& bar : bars) {
     const double tick = 0.3 * em;
     PathItem path = polyline_item({{bar.from.x, bar.from.y - tick}, bar.from, bar.to, {bar.to.x, bar.to.y - tick}},
                                   false, theme.text, 1.5 * theme.line_px);
@@ -251,9 +232,8 @@ void add_scale(FrameDescription& frame, const MapFrame& map, const Theme& theme,
 
 }  // namespace
 
-void add_scale_and_north(FrameDescription& frame, const MapFrame& map, const Theme& theme,
-                         const std::optional<PixelRect>& bars) {
-  if (bars) add_scale(frame, map, theme, *bars);
+void add_scale_and_north(FrameDescription& frame, const MapFrame& map, const Theme& theme) {
+  add_scale(frame, map, theme);
   const double em = theme.text_px;
   double most_rad = 0.0;
   for (const double u : {0.02, 0.98}) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -43,12 +42,10 @@ struct ScaleBar {
 /// left  of the bar; most_px  its longest length. Units: nautical miles or kilometres, metres where short.
 [[nodiscard]] ScaleBar scale_bar(const MapFrame& map, PixelPoint left, double most_px, bool nautical,
                                  const Units& units = {});
-/// What both bars cover: in the map's lower left corner, or as near to it along the map's edges as they lie on nothing of
-/// `kept_clear`. Empty in a map so low that they would lie over what it shows.
-[[nodiscard]] std::optional<PixelRect> scale_bars_place(const MapFrame& map, const Theme& theme,
-                                                        std::span<const PixelRect> kept_clear = {});
-/// Both bars at their place; where north is not up (over 1 degree off somewhere), an arrow in the map's upper right corner.
-void add_scale_and_north(FrameDescription& frame, const MapFrame& map, const Theme& theme,
-                         const std::optional<PixelRect>& bars);
+/// Both bars in the map's lower left corner, but in a map so low that they would lie over what it shows; where north is not
+/// up (over 1 degree off somewhere), an arrow in its upper right corner.
+void add_scale_and_north(FrameDescription& frame, const MapFrame& map, const Theme& theme);
+/// What the bars cover of the map; empty where there are none.
+[[nodiscard]] std::optional<PixelRect> scale_bars_place(const MapFrame& map, const Theme& theme);
 
 }  // namespace sonar

@@ -4,13 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <random>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "view/free_place.h"
 #include "view/label_room.h"
 #include "view/maps/map_example.h"
 #include "view/maps/map_items.h"
@@ -255,66 +252,6 @@ TEST(MapLabels, ATimelinesNumbersStandOverAllTracks) {
     EXPECT_FALSE(numbered && std::holds_alternative<PathItem>(item)) << "a track over a number";
   }
   EXPECT_EQ(boxes.size(), 3U);
-}
-
-/// Of the box round the scale bars; empty where there is none.
-std::optional<PixelRect> bars_of(const FrameDescription& frame, const Theme& theme) {
-  for (const auto& item : frame.items) {
-    const auto* path = std::get_if<PathItem>(&item);
-    if (path == nullptr || path->fill != theme.halo || path->stroke.colour != theme.grid) continue;
-    const auto& corners = path->parts.at(0).points;
-    return PixelRect{corners[0].x, corners[0].y, corners[2].x - corners[0].x, corners[2].y - corners[0].y};
-  }
-  return std::nullopt;
-}
-
-/// The ship on the map; a legend's comes behind it.
-ConvexOutline ship_of(const FrameDescription& frame, const Theme& theme) {
-  for (const auto& item : frame.items) {
-    if (const auto* path = std::get_if<PathItem>(&item); path != nullptr && path->fill == theme.ship) {
-      return path->parts.at(0).points;
-    }
-  }
-  return {};
-}
-
-// Law: in random maps of every size the scale bars lie not on the ship, whichever ping is on show, and inside the map.
-TEST(MapLabels, ScaleBarsKeepOffTheShip) {
-  std::mt19937 random(20200107);
-  const auto between = [&random](double low, double high) {
-    return low + (high - low) * static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
-  };
-  int in_corner = 0;
-  int elsewhere = 0;
-  for (int i = 0; i < 50; ++i) {
-    const PixelSize size{static_cast<int>(between(320.0, 500.0)), static_cast<int>(between(240.0, 400.0))};
-    const Theme theme = light_theme(size);
-    const auto p = map_example::product("obs-0001", static_cast<int>(between(2.0, 120.0)), {between(-70.0, 70.0), 5.0},
-                                        between(0.0, 360.0));
-    const auto base = observation_map_base(p, size, theme, {between(1.0, 3.0), {between(-200.0, 200.0), 0.0}});
-    ASSERT_TRUE(base);
-    if (!base->bars) continue;
-    const bool corner = base->bars->x < base->map.place.x + theme.text_px &&
-                        base->bars->y > base->map.place.y + base->map.place.height - 3.0 * theme.text_px;
-    ++(corner ? in_corner : elsewhere);
-    EXPECT_LE(base->bars->x + base->bars->width, base->map.place.x + base->map.place.width);
-    for (std::size_t ping = 0; ping < p.pings.size(); ping += 1 + p.pings.size() / 2) {
-      const auto frame = observation_map(*base, p, empty_mosaic(*base, p.pings.size()), ping, {});
-      EXPECT_FALSE(covers(*base->bars, ship_of(frame, theme))) << i << ", ping " << ping;
-      EXPECT_EQ(bars_of(frame, theme)->y, base->bars->y);
-    }
-  }
-  EXPECT_GT(in_corner, 10) << "where they always stood";
-  EXPECT_GT(elsewhere, 10) << "else nothing is tested";
-  for (int i = 0; i < 25; ++i) {
-    const PixelSize size{static_cast<int>(between(560.0, 700.0)), static_cast<int>(between(320.0, 520.0))};
-    const Theme theme = light_theme(size);
-    const std::vector<ObservationProduct> all{map_example::product("obs-0001", 40, {60.0, 5.0}, between(180.0, 270.0))};
-    const auto frame = survey_map(all, {}, nullptr, {}, size, theme);
-    ASSERT_TRUE(frame);
-    const auto bars = bars_of(*frame, theme);
-    EXPECT_FALSE(bars && covers(*bars, ship_of(*frame, theme))) << i;
-  }
 }
 
 }  // namespace

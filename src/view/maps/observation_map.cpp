@@ -13,7 +13,6 @@
 #include "model/outline.h"
 #include "model/school_totals.h"
 #include "view/axes.h"
-#include "view/free_place.h"
 #include "view/maps/graticule.h"
 #include "view/maps/map_items.h"
 #include "view/maps/observation_map_key.h"
@@ -61,28 +60,6 @@ std::shared_ptr<const Image> painted(const MaskMosaic& mosaic, const MaskPalette
   return image;
 }
 
-double ship_px(const MapFrame& map, const PingNavigation& n, const Theme& theme) {
-  return std::max(kShip_m / map.true_metres_per_px(n.transducer), 2.0 * theme.text_px);
-}
-
-/// What the ship covers of the map at any ping; places that lie on others are passed over.
-std::vector<PixelRect> ship_places(const MapFrame& map, std::span<const PingNavigation> pings, const Theme& theme) {
-  constexpr double kStep = 0.1;  // of the ship's length
-  std::vector<PixelRect> places;
-  PixelPoint before{-1e9, -1e9};
-  for (const PingNavigation& n : pings) {
-    const auto at = n.has_position() ? map.at(n.transducer) : std::nullopt;
-    if (!at) continue;
-    const double length = ship_px(map, n, theme);
-    if (std::hypot(at->x - before.x, at->y - before.y) < kStep * length) continue;
-    before = *at;
-    const double half = (0.5 + kStep) * length;
-    const PixelRect place{at->x - half, at->y - half, 2.0 * half, 2.0 * half};
-    if (covers(map.place, outline_of(place))) places.push_back(place);
-  }
-  return places;
-}
-
 void add_current(FrameDescription& frame, const ObservationMapBase& base, const ObservationProduct& product,
                  std::size_t current) {
   const Theme& theme = base.theme;
@@ -97,7 +74,7 @@ void add_current(FrameDescription& frame, const ObservationMapBase& base, const 
   const double heading = std::isfinite(n.heading_deg) ? n.heading_deg : n.course_deg;
   const double turned =
       (std::isfinite(heading) ? rad_from_deg(heading) : 0.0) + base.map.projection.north_rad(n.transducer);
-  const double length = ship_px(base.map, n, theme);
+  const double length = std::max(kShip_m / base.map.true_metres_per_px(n.transducer), 2.0 * theme.text_px);
   frame.items.emplace_back(ship_item(*at, length, turned, theme.ship, theme.background, theme.line_px));
 }
 
@@ -149,7 +126,6 @@ Result<ObservationMapBase> observation_map_base(const ObservationProduct& produc
   const auto first = std::find_if(product.pings.begin(), product.pings.end(),
                                   [](const PingNavigation& n) { return n.has_position(); });
   if (first != product.pings.end()) base.start = base.map.at(first->transducer);
-  base.bars = scale_bars_place(base.map, theme, ship_places(base.map, product.pings, theme));
   base.footprints.resize(product.pings.size());
   std::vector<PlanePoint> corners;
   for (std::size_t i = 0; i < rings.size(); ++i) {
@@ -206,7 +182,7 @@ FrameDescription observation_map(const ObservationMapBase& base, const Observati
   }
   frame.items.emplace_back(ClipItem{});
   add_graticule(frame, base.map, theme);
-  add_scale_and_north(frame, base.map, theme, base.bars);
+  add_scale_and_north(frame, base.map, theme);
   add_key(frame, base.key_place, base.key, theme);
   const std::string span =
       product.pings.empty() ? std::string() : time_span_text(product.pings.front().time, product.pings.back().time);

@@ -34,7 +34,6 @@ struct ObservationMapBase {
   bool searched = true;               ///< schools were looked for; else the title says that they were not
   std::size_t left_out = 0;           ///< schools that there are and that the map does not show
   std::optional<PixelPoint> start{};  ///< of the observation
-  std::optional<PixelRect> bars{};  ///< of the scale: at no ping the ship lies below them, where there is such a place
 };
 
 /// key     with room for a key of lines and colours below the map; refused = of refused echoes too

@@ -251,7 +251,7 @@ TEST(ObservationMap, AScaleStandsOnlyWhereItLeavesTheMapToBeSeen) {
     const auto base = observation_map_base(p, size, light_theme(size));
     EXPECT_TRUE(base);
     const auto frame = observation_map(*base, p, empty_mosaic(*base, p.pings.size()), 3, {});
-    EXPECT_EQ(says(frame, " nmi"), base->bars.has_value());
+    EXPECT_EQ(says(frame, " nmi"), scale_bars_place(base->map, base->theme).has_value());
     return says(frame, " nmi");
   };
   EXPECT_TRUE(with_scale(kSize));

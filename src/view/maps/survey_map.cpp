@@ -221,14 +221,11 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
   Places p;
   const MapFrame map = laid_out(*extent, style, size, theme, p);
   const SchoolLook look(observations, style, theme);
-  const PingNavigation* last = last_placed(observations);
-  const auto ship = last != nullptr ? map.at(last->transducer) : std::nullopt;
-  const double em = theme.text_px;
-  std::vector<PixelRect> kept_clear;
-  if (ship) kept_clear.push_back({ship->x - 1.1 * em, ship->y - 1.1 * em, 2.2 * em, 2.2 * em});
-  const SurveyMapDrawing d{frame, map, theme, look, em, scale_bars_place(map, theme, kept_clear)};
+  const SurveyMapDrawing d{frame, map, theme, look, theme.text_px};
   frame.items.emplace_back(rectangle_item(map.place, theme.plot));
   DepthBands bands;
+  const PingNavigation* last = last_placed(observations);
+  const auto ship = last != nullptr ? map.at(last->transducer) : std::nullopt;
   StartNames names;
   if (style.names && observations.size() <= kMostNames) names = start_names(d, observations, ship);
   std::vector<PixelPoint> taken;
@@ -265,7 +262,7 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
   for (TextItem& name : names.names) frame.items.emplace_back(std::move(name));
   frame.items.emplace_back(ClipItem{});
   add_graticule(frame, map, theme);
-  add_scale_and_north(frame, map, theme, d.bars);
+  add_scale_and_north(frame, map, theme);
   if (style.legend)
     add_survey_legend(
         d, p.legend, bands, style, depths, schools,

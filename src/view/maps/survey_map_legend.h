@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +19,6 @@ struct SurveyMapDrawing {
   const Theme& theme;
   const SchoolLook& look;
   double em;
-  std::optional<PixelRect> bars;  ///< of the scale
 };
 
 inline constexpr Rgba8 kSweptColour{110, 110, 110, 95};
