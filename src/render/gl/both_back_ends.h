@@ -2,6 +2,8 @@
 // Pictures by either back-end, for tests of what both must draw alike. What fails throws.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -35,6 +37,20 @@ inline std::optional<BackEnd> back_end(bool gl) {
   out.renderer = make_gl_renderer().value();
   return out;
 }
+
+/// A test that both must pass: its parameter tells whether OpenGL draws.
+class EitherBackEnd : public testing::TestWithParam<bool> {
+ protected:
+  void SetUp() override {
+    back_end_ = back_end(GetParam());
+    if (!back_end_) GTEST_SKIP() << "no OpenGL here";
+  }
+  VolumeRenderer& renderer() { return *back_end_->renderer; }
+
+ private:
+  std::optional<BackEnd> back_end_;
+};
+inline const char* name_of(const testing::TestParamInfo<bool>& gl) { return gl.param ? "OpenGl" : "Processor"; }
 
 inline RayImage drawn(VolumeRenderer& r, const std::shared_ptr<const VolumeData>& volume, const OpticalTable& optics,
                       const VolumeView& view, const DrawQuality& quality = {}, std::span<const MaskLayer> masks = {}) {

@@ -21,19 +21,8 @@ namespace {
 using gl_test::drawn;
 using gl_test::mean_of;
 
-class Masks : public testing::TestWithParam<bool> {
- protected:
-  void SetUp() override {
-    back_end_ = gl_test::back_end(GetParam());
-    if (!back_end_) GTEST_SKIP() << "no OpenGL here";
-  }
-  VolumeRenderer& renderer() { return *back_end_->renderer; }
-
- private:
-  std::optional<gl_test::BackEnd> back_end_;
-};
-INSTANTIATE_TEST_SUITE_P(BackEnds, Masks, testing::Bool(),
-                         [](const auto& gl) { return gl.param ? "OpenGl" : "Processor"; });
+class Masks : public gl_test::EitherBackEnd {};
+INSTANTIATE_TEST_SUITE_P(BackEnds, Masks, testing::Bool(), gl_test::name_of);
 
 constexpr int kFirst = 60;  // samples of the shell
 constexpr int kLast = 89;

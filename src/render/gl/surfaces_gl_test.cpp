@@ -108,19 +108,8 @@ const std::array<float, 4>& pixel(const RayImage& image, int x, int y) {
   return image.rgba[static_cast<std::size_t>(y * image.size.width + x)];
 }
 
-class Surfaces : public testing::TestWithParam<bool> {
- protected:
-  void SetUp() override {
-    back_end_ = gl_test::back_end(GetParam());
-    if (!back_end_) GTEST_SKIP() << "no OpenGL here";
-  }
-  VolumeRenderer& renderer() { return *back_end_->renderer; }
-
- private:
-  std::optional<gl_test::BackEnd> back_end_;
-};
-INSTANTIATE_TEST_SUITE_P(BackEnds, Surfaces, testing::Bool(),
-                         [](const auto& gl) { return gl.param ? "OpenGl" : "Processor"; });
+class Surfaces : public gl_test::EitherBackEnd {};
+INSTANTIATE_TEST_SUITE_P(BackEnds, Surfaces, testing::Bool(), gl_test::name_of);
 
 /// A ball has the outline and the normals of a ball.
 TEST_P(Surfaces, ABallIsRound) {
