@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "render/gl/both_back_ends.h"
 #include "render/gl/gl_test_scene.h"
+#include "render/gl/test_both_back_ends.h"
 #include "render/ray_rules.h"
 #include "render/test_scenes.h"
 

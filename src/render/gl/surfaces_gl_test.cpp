@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/gl/both_back_ends.h"
+#include "render/gl/test_both_back_ends.h"
 #include "render/ray_rules.h"
 #include "render/reference/brute_force.h"
 #include "render/test_scenes.h"
