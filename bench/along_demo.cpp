@@ -16,7 +16,7 @@
 
 #include "publish/picture_source.h"
 #include "publish/renderer_choice.h"
-#include "publish/volume_figure.h"
+#include "publish/volumes/volume_figure.h"
 #include "render/draw_frame.h"
 #include "render/reference/brute_force.h"
 #include "render/volume_renderer.h"

@@ -20,7 +20,7 @@
 #include "pipeline/stages/observe.h"
 #include "publish/picture_output.h"
 #include "session/app_model.h"
-#include "session/playback.h"
+#include "session/playing/playback.h"
 #include "session/slices/slice_build.h"
 #include "session/slices/slice_model.h"
 #include "session/slices/slice_places.h"

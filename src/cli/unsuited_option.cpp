@@ -9,7 +9,7 @@
 
 #include "cli/render_options.h"
 #include "io/recordings.h"
-#include "publish/report_html.h"
+#include "publish/reports/report_html.h"
 
 namespace sonar {
 

@@ -13,7 +13,7 @@
 #include "gui/listening_of.h"
 #include "gui/translated.h"
 #include "gui/view_keys.h"
-#include "session/context_menu.h"
+#include "session/words/context_menu.h"
 
 namespace sonar {
 namespace {

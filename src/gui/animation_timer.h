@@ -3,8 +3,8 @@
 
 #include <QTimer>
 
-#include "session/animation_driver.h"
 #include "session/listening.h"
+#include "session/playing/animation_driver.h"
 
 namespace sonar {
 

@@ -4,7 +4,7 @@
 #include <QWidget>
 #include <memory>
 
-#include "session/parameter_source.h"
+#include "session/recipes/parameter_source.h"
 
 namespace sonar {
 

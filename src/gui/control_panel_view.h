@@ -4,8 +4,8 @@
 #include <QScrollArea>
 #include <vector>
 
-#include "session/parameter_source.h"
-#include "session/transfer_editor.h"
+#include "session/looks/transfer_editor.h"
+#include "session/recipes/parameter_source.h"
 
 namespace sonar {
 

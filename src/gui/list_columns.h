@@ -6,7 +6,7 @@
 #include <QStringList>
 #include <QTreeView>
 
-#include "session/rows.h"
+#include "session/review/rows.h"
 
 namespace sonar {
 

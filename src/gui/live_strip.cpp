@@ -6,7 +6,7 @@
 
 #include "gui/listening_of.h"
 #include "gui/translated.h"
-#include "session/live_watch.h"
+#include "session/live/live_watch.h"
 
 namespace sonar {
 

@@ -20,10 +20,10 @@
 #include "gui/main_window.h"
 #include "gui/queue_pump.h"
 #include "gui/translated.h"
-#include "session/all_words.h"
 #include "session/batch/batch.h"
-#include "session/live_watch.h"
-#include "session/open_demo.h"
+#include "session/live/live_watch.h"
+#include "session/open/open_demo.h"
+#include "session/words/all_words.h"
 
 namespace sonar {
 namespace {

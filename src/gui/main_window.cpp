@@ -38,7 +38,7 @@
 #include "gui/translated.h"
 #include "gui/view_keys.h"
 #include "session/app_parts.h"
-#include "session/picture_sentence.h"
+#include "session/pictures/picture_sentence.h"
 
 namespace sonar {
 namespace {

@@ -4,7 +4,7 @@
 #include <QVBoxLayout>
 #include <QWidget>
 
-#include "session/parameter_source.h"
+#include "session/recipes/parameter_source.h"
 
 namespace sonar {
 

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "session/listening.h"
-#include "session/live_picture.h"
-#include "session/workspace.h"
+#include "session/live/live_picture.h"
+#include "session/open/workspace.h"
 
 namespace sonar {
 

@@ -16,7 +16,7 @@
 #include "gui/key_page.h"
 #include "gui/panel_section.h"
 #include "gui/translated.h"
-#include "session/window_preferences.h"
+#include "session/words/window_preferences.h"
 
 namespace sonar {
 namespace {

@@ -17,7 +17,7 @@
 #include "gui/picture_view.h"
 #include "gui/translated.h"
 #include "session/listening.h"
-#include "session/recipe_preview.h"
+#include "session/recipes/recipe_preview.h"
 
 namespace sonar {
 namespace {

@@ -4,7 +4,7 @@
 #include <QWidget>
 
 #include "session/actions.h"
-#include "session/recipe_editor.h"
+#include "session/recipes/recipe_editor.h"
 
 namespace sonar {
 

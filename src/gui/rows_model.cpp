@@ -8,7 +8,7 @@
 #include <QPixmapCache>
 
 #include "gui/translated.h"
-#include "session/thumbnails.h"
+#include "session/open/thumbnails.h"
 
 namespace sonar {
 namespace {

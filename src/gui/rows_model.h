@@ -4,7 +4,7 @@
 #include <QAbstractItemModel>
 #include <vector>
 
-#include "session/rows.h"
+#include "session/review/rows.h"
 
 namespace sonar {
 

@@ -12,7 +12,7 @@
 #include "gui/list_columns.h"
 #include "gui/rows_model.h"
 #include "session/listening.h"
-#include "session/rows.h"
+#include "session/review/rows.h"
 
 namespace sonar {
 

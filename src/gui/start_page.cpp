@@ -19,7 +19,7 @@
 #include "gui/action_menus.h"
 #include "gui/translated.h"
 #include "session/listening.h"
-#include "session/recent_surveys.h"
+#include "session/open/recent_surveys.h"
 
 namespace sonar {
 namespace {

@@ -19,9 +19,9 @@
 #include "gui/notice_bar.h"
 #include "gui/own_keys.h"
 #include "gui/translated.h"
-#include "session/beyond_reach.h"
-#include "session/live_watch.h"
-#include "session/merge_offer.h"
+#include "session/live/live_watch.h"
+#include "session/review/beyond_reach.h"
+#include "session/review/merge_offer.h"
 #include "session/tools/measure_tool.h"
 
 namespace sonar {

@@ -17,7 +17,7 @@
 #include "gui/action_menus.h"
 #include "gui/listening_of.h"
 #include "gui/translated.h"
-#include "session/playback.h"
+#include "session/playing/playback.h"
 
 namespace sonar {
 namespace {

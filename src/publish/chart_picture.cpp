@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "publish/drawn_schools.h"
+#include "publish/volumes/drawn_schools.h"
 #include "view/charts/chart.h"
 
 namespace sonar {

@@ -15,7 +15,7 @@
 #include "model/strongest_ping.h"
 #include "pipeline/exports/avoidance.h"
 #include "pipeline/stages/fan_response.h"
-#include "publish/drawn_schools.h"
+#include "publish/volumes/drawn_schools.h"
 #include "view/colour_bar.h"
 
 namespace sonar {

@@ -11,7 +11,7 @@
 #include "base/number_text.h"
 #include "base/units.h"
 #include "model/strongest_ping.h"
-#include "publish/drawn_schools.h"
+#include "publish/volumes/drawn_schools.h"
 
 namespace sonar {
 namespace {

@@ -12,7 +12,7 @@
 #include "base/check.h"
 #include "io/fuzz_choices.h"
 #include "io/sealed_file.h"
-#include "publish/echogram_cache.h"
+#include "publish/echograms/echogram_cache.h"
 
 namespace sonar::fuzz {
 

@@ -7,7 +7,7 @@
 
 #include "pipeline/exports/track_edges.h"
 #include "pipeline/stages/placed_events.h"
-#include "publish/drawn_schools.h"
+#include "publish/volumes/drawn_schools.h"
 #include "view/lineage/lineage.h"
 
 namespace sonar {

@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "publish/drawn_schools.h"
-#include "publish/sample_looks.h"
+#include "publish/reports/sample_looks.h"
 #include "publish/slice_pictures.h"
+#include "publish/volumes/drawn_schools.h"
 #include "view/axes.h"
 
 namespace sonar {

@@ -10,14 +10,14 @@
 #include "pipeline/recipe/recipe.h"
 #include "publish/chart_picture.h"
 #include "publish/curves_picture.h"
-#include "publish/echogram_picture.h"
+#include "publish/echograms/echogram_picture.h"
 #include "publish/frequency_picture.h"
 #include "publish/lineage_picture.h"
-#include "publish/map_pictures.h"
+#include "publish/maps/map_pictures.h"
 #include "publish/noise_steps_picture.h"
-#include "publish/report_page.h"
+#include "publish/reports/report_page.h"
 #include "publish/slice_pictures.h"
-#include "publish/volume_picture.h"
+#include "publish/volumes/volume_picture.h"
 
 namespace sonar {
 namespace {

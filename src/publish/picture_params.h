@@ -6,9 +6,9 @@
 #include <string_view>
 
 #include "base/describe.h"
-#include "publish/movie_params.h"
+#include "publish/movies/movie_params.h"
 #include "publish/picture_kind_params.h"
-#include "publish/volume_params.h"
+#include "publish/volumes/volume_params.h"
 #include "view/sv_scale.h"
 
 namespace sonar {

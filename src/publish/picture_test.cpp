@@ -16,7 +16,7 @@
 #include "base/test_paths.h"
 #include "io/depth_raster.h"
 #include "io/product_example.h"
-#include "publish/sample_looks.h"
+#include "publish/reports/sample_looks.h"
 
 namespace sonar {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "base/units.h"
 #include "pipeline/stages/weak_samples.h"
-#include "publish/between_pings.h"
-#include "publish/drawn_schools.h"
-#include "publish/sample_looks.h"
+#include "publish/movies/between_pings.h"
+#include "publish/reports/sample_looks.h"
+#include "publish/volumes/drawn_schools.h"
 #include "view/school_look.h"
 
 namespace sonar {

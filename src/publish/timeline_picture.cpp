@@ -5,9 +5,9 @@
 #include <optional>
 #include <utility>
 
-#include "publish/drawn_schools.h"
-#include "publish/echogram_cache.h"
-#include "publish/map_pictures.h"
+#include "publish/echograms/echogram_cache.h"
+#include "publish/maps/map_pictures.h"
+#include "publish/volumes/drawn_schools.h"
 #include "view/timelines/echogram_pyramid.h"
 #include "view/timelines/timeline.h"
 

@@ -8,7 +8,7 @@
 
 #include "session/app_parts.h"
 #include "session/numbers/fish_biomass.h"
-#include "session/recent_surveys.h"
+#include "session/open/recent_surveys.h"
 
 namespace sonar {
 namespace {

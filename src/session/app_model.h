@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "session/actions.h"
-#include "session/animation_driver.h"
-#include "session/control_panel.h"
-#include "session/key_said.h"
-#include "session/live_picture.h"
-#include "session/preferences.h"
-#include "session/rows.h"
-#include "session/transfer_editor.h"
-#include "session/workspace.h"
+#include "session/live/live_picture.h"
+#include "session/looks/transfer_editor.h"
+#include "session/open/workspace.h"
+#include "session/playing/animation_driver.h"
+#include "session/recipes/control_panel.h"
+#include "session/review/rows.h"
+#include "session/words/key_said.h"
+#include "session/words/preferences.h"
 
 namespace sonar {
 

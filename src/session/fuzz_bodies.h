@@ -11,7 +11,7 @@
 
 #include "base/check.h"
 #include "session/marks/bookmarked_view.h"
-#include "session/preferences.h"
+#include "session/words/preferences.h"
 
 namespace sonar::fuzz {
 

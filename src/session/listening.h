@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "session/listeners.h"
-#include "session/parameters.h"
+#include "session/recipes/parameters.h"
 
 namespace sonar {
 

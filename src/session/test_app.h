@@ -7,7 +7,7 @@
 
 #include "base/check.h"
 #include "session/app_parts.h"
-#include "session/survey_schools.h"
+#include "session/open/survey_schools.h"
 #include "session/test_survey.h"
 
 namespace sonar {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "session/document.h"
+#include "session/open/document.h"
 #include "synth/beam_table.h"
 #include "synth/presets.h"
 #include "synth/simulate.h"

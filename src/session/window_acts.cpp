@@ -7,7 +7,7 @@
 
 #include "base/manual.h"
 #include "session/app_parts.h"
-#include "session/open_demo.h"
+#include "session/open/open_demo.h"
 
 namespace sonar {
 namespace {

@@ -18,7 +18,7 @@
 #include "base/time.h"
 #include "gui/action_menus.h"
 #include "render/draw_frame.h"
-#include "session/recipe_preview.h"
+#include "session/recipes/recipe_preview.h"
 #include "window_at_work.h"
 
 namespace sonar {

@@ -27,7 +27,7 @@
 #include "publish/picture_options.h"
 #include "publish/picture_source.h"
 #include "render/draw_frame.h"
-#include "session/playback.h"
+#include "session/playing/playback.h"
 #include "session/test_run.h"
 #include "window_at_work.h"
 

@@ -11,7 +11,7 @@
 
 #include "clocked_window.h"
 #include "session/maps/observation_map_model.h"
-#include "session/playback.h"
+#include "session/playing/playback.h"
 #include "session/volume/volume_model.h"
 
 namespace sonar {

@@ -18,7 +18,7 @@
 #include <functional>
 
 #include "gui/action_menus.h"
-#include "session/playback.h"
+#include "session/playing/playback.h"
 #include "window_at_work.h"
 
 namespace sonar {

@@ -13,7 +13,7 @@
 
 #include "gui/action_menus.h"
 #include "gui/rows_view.h"
-#include "session/review.h"
+#include "session/review/review.h"
 #include "window_at_work.h"
 
 namespace sonar {

@@ -6,7 +6,7 @@
 #include <QToolBar>
 
 #include "clocked_window.h"
-#include "session/live_watch.h"
+#include "session/live/live_watch.h"
 
 namespace sonar {
 namespace {

@@ -7,7 +7,7 @@
 #include <QTreeView>
 
 #include "session/marks/bookmarked_view.h"
-#include "session/thumbnails.h"
+#include "session/open/thumbnails.h"
 #include "window_at_work.h"
 
 namespace sonar {

@@ -7,8 +7,8 @@
 
 #include "clocked_window.h"
 #include "gui/action_menus.h"
-#include "session/picture_sentence.h"
-#include "session/playback.h"
+#include "session/pictures/picture_sentence.h"
+#include "session/playing/playback.h"
 #include "session/volume/volume_model.h"
 
 namespace sonar {

@@ -8,7 +8,7 @@
 #include <QTreeView>
 #include <algorithm>
 
-#include "session/refused_layer.h"
+#include "session/review/refused_layer.h"
 #include "window_at_work.h"
 
 namespace sonar {

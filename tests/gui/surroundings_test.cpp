@@ -12,7 +12,7 @@
 
 #include "base/manual.h"
 #include "gui/action_menus.h"
-#include "session/open_demo.h"
+#include "session/open/open_demo.h"
 #include "window_at_work.h"
 
 namespace sonar {

@@ -12,7 +12,7 @@
 #include <set>
 
 #include "session/charts/chart_model.h"
-#include "session/survey_schools.h"
+#include "session/open/survey_schools.h"
 #include "window_at_work.h"
 
 namespace sonar {

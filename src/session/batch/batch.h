@@ -17,9 +17,9 @@
 #include "pipeline/tasks/named_surveys.h"
 #include "pipeline/tasks/run_survey.h"
 #include "session/batch/batch_progress.h"
-#include "session/document.h"
 #include "session/listeners.h"
-#include "session/preferences.h"
+#include "session/open/document.h"
+#include "session/words/preferences.h"
 
 namespace sonar {
 

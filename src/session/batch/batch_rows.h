@@ -6,7 +6,7 @@
 
 #include "session/batch/batch.h"
 #include "session/listening.h"
-#include "session/rows.h"
+#include "session/review/rows.h"
 
 namespace sonar {
 

@@ -9,8 +9,8 @@
 
 #include "base/number_text.h"
 #include "pipeline/tasks/survey_numbers.h"
-#include "session/screen_theme.h"
-#include "session/survey_schools.h"
+#include "session/looks/screen_theme.h"
+#include "session/open/survey_schools.h"
 
 namespace sonar {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "pipeline/exports/avoidance.h"
-#include "session/screen_theme.h"
+#include "session/looks/screen_theme.h"
 
 namespace sonar {
 namespace {

@@ -7,8 +7,8 @@
 #include "publish/curves_picture.h"
 #include "session/charts/school_looks.h"
 #include "session/listening.h"
-#include "session/live_picture.h"
-#include "session/workspace.h"
+#include "session/live/live_picture.h"
+#include "session/open/workspace.h"
 #include "view/charts/panel_chart.h"
 
 namespace sonar {

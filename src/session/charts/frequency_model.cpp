@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "session/screen_theme.h"
+#include "session/looks/screen_theme.h"
 
 namespace sonar {
 

@@ -8,8 +8,8 @@
 #include "publish/frequency_picture.h"
 #include "session/charts/school_looks.h"
 #include "session/listening.h"
-#include "session/live_picture.h"
-#include "session/workspace.h"
+#include "session/live/live_picture.h"
+#include "session/open/workspace.h"
 #include "view/charts/frequency_chart.h"
 
 namespace sonar {

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "base/number_text.h"
-#include "session/screen_theme.h"
+#include "session/looks/screen_theme.h"
+#include "session/open/survey_schools.h"
 #include "session/slices/school_layers.h"
-#include "session/survey_schools.h"
 
 namespace sonar {
 namespace {

@@ -16,10 +16,10 @@
 
 #include "base/result.h"
 #include "base/task_thread.h"
-#include "session/picture_look.h"
-#include "session/ping_cache.h"
-#include "session/right_of_way.h"
-#include "session/workspace.h"
+#include "session/looks/picture_look.h"
+#include "session/open/ping_cache.h"
+#include "session/open/workspace.h"
+#include "session/playing/right_of_way.h"
 
 namespace sonar {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "pipeline/stages/observe.h"
-#include "session/screen_theme.h"
+#include "session/looks/screen_theme.h"
 #include "session/timelines/timeline_painter.h"
 #include "view/echograms/stacked_timelines.h"
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "session/document.h"
-#include "session/picture_look.h"
+#include "session/looks/picture_look.h"
+#include "session/open/document.h"
 #include "session/timelines/echograms.h"
 #include "session/timelines/timeline_model.h"
 #include "view/frame_description.h"

@@ -10,9 +10,9 @@
 #include "session/echograms/echogram_build.h"
 #include "session/echograms/echogram_shadows.h"
 #include "session/listening.h"
-#include "session/live_picture.h"
+#include "session/live/live_picture.h"
+#include "session/open/workspace.h"
 #include "session/timelines/echograms.h"
-#include "session/workspace.h"
 
 namespace sonar {
 

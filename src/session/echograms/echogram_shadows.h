@@ -10,7 +10,7 @@
 
 #include "base/hash.h"
 #include "base/work.h"
-#include "session/document.h"
+#include "session/open/document.h"
 #include "view/echograms/echogram_schools.h"
 
 namespace sonar {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "session/live_picture.h"
+#include "session/live/live_picture.h"
 #include "view/figures/figure_page.h"
 
 namespace sonar {

@@ -9,7 +9,7 @@
 
 #include "session/app_model.h"
 #include "session/listening.h"
-#include "session/live_picture.h"
+#include "session/live/live_picture.h"
 #include "view/figures/figure_page.h"
 
 namespace sonar {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "session/place_text.h"
+#include "session/looks/place_text.h"
 
 namespace sonar {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/time.h"
-#include "session/rows.h"
+#include "session/review/rows.h"
 #include "view/units.h"
 
 namespace sonar {

@@ -2,7 +2,7 @@
 #include "session/lists/diagnostics_list.h"
 
 #include "session/lists/cells.h"
-#include "session/survey_schools.h"
+#include "session/open/survey_schools.h"
 
 namespace sonar {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "session/listening.h"
 #include "session/lists/cells.h"
-#include "session/rows.h"
-#include "session/workspace.h"
+#include "session/open/workspace.h"
+#include "session/review/rows.h"
 
 namespace sonar {
 

@@ -8,7 +8,7 @@
 #include "pipeline/journal/journals.h"
 #include "session/history.h"
 #include "session/lists/cells.h"
-#include "session/survey_schools.h"
+#include "session/open/survey_schools.h"
 
 namespace sonar {
 namespace {

@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "session/lists/cells.h"
-#include "session/survey_schools.h"
+#include "session/open/survey_schools.h"
 
 namespace sonar {
 namespace {

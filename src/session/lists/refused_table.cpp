@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "session/lists/cells.h"
-#include "session/refused_layer.h"
+#include "session/review/refused_layer.h"
 
 namespace sonar {
 namespace {

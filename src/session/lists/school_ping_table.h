@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "session/lists/document_rows.h"
-#include "session/survey_schools.h"
+#include "session/open/survey_schools.h"
 
 namespace sonar {
 

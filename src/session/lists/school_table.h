@@ -7,7 +7,7 @@
 
 #include "session/listening.h"
 #include "session/lists/document_rows.h"
-#include "session/survey_schools.h"
+#include "session/open/survey_schools.h"
 
 namespace sonar {
 

@@ -10,7 +10,7 @@
 #include "base/number_text.h"
 #include "model/beam_angles.h"
 #include "session/lists/cells.h"
-#include "session/survey_schools.h"
+#include "session/open/survey_schools.h"
 
 namespace sonar {
 namespace {

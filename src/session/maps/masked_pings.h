@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "session/choices.h"
+#include "session/looks/choices.h"
 #include "view/maps/mask_mosaic.h"
 
 namespace sonar {

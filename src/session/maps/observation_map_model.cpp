@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "geo/geodesic.h"
+#include "session/looks/place_text.h"
+#include "session/looks/screen_theme.h"
 #include "session/maps/observation_map_painter.h"
-#include "session/place_text.h"
-#include "session/refused_layer.h"
-#include "session/screen_theme.h"
-#include "session/survey_schools.h"
+#include "session/open/survey_schools.h"
+#include "session/review/refused_layer.h"
 #include "view/maps/map_items.h"
 
 namespace sonar {

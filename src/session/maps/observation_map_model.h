@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "session/listening.h"
-#include "session/live_picture.h"
+#include "session/live/live_picture.h"
 #include "session/maps/map_gesture.h"
 #include "session/maps/masked_pings.h"
+#include "session/open/workspace.h"
 #include "session/tools/map_measure.h"
-#include "session/workspace.h"
 #include "view/refused_marks.h"
 
 namespace sonar {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "pipeline/stages/observe.h"
-#include "session/screen_theme.h"
-#include "session/survey_schools.h"
+#include "session/looks/screen_theme.h"
+#include "session/open/survey_schools.h"
 
 namespace sonar {
 namespace {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include "session/looks/picture_look.h"
 #include "session/maps/observation_map_model.h"
-#include "session/picture_look.h"
 #include "view/maps/observation_map.h"
 
 namespace sonar {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "session/looks/screen_theme.h"
 #include "session/maps/strip_panels.h"
-#include "session/screen_theme.h"
 
 namespace sonar {
 namespace {

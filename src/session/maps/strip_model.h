@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "session/listening.h"
-#include "session/live_picture.h"
+#include "session/live/live_picture.h"
 #include "session/maps/masked_pings.h"
-#include "session/workspace.h"
+#include "session/open/workspace.h"
 #include "view/volume/propagation_view.h"
 
 namespace sonar {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "session/looks/picture_look.h"
 #include "session/maps/masked_pings.h"
 #include "session/maps/strip_model.h"
-#include "session/picture_look.h"
 
 namespace sonar {
 

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "geo/geodesic.h"
+#include "session/looks/place_text.h"
 #include "session/maps/survey_map_painter.h"
-#include "session/place_text.h"
-#include "session/survey_schools.h"
+#include "session/open/survey_schools.h"
 
 namespace sonar {
 namespace {

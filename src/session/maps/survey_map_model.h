@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "session/listening.h"
-#include "session/live_picture.h"
+#include "session/live/live_picture.h"
 #include "session/maps/map_gesture.h"
+#include "session/open/workspace.h"
 #include "session/tools/map_measure.h"
-#include "session/workspace.h"
 
 namespace sonar {
 

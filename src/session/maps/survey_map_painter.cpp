@@ -8,8 +8,8 @@
 
 #include "pipeline/stages/observe.h"
 #include "pipeline/tasks/join_tracks.h"
-#include "publish/chart_layers.h"
-#include "session/screen_theme.h"
+#include "publish/maps/chart_layers.h"
+#include "session/looks/screen_theme.h"
 #include "view/school_look.h"
 
 namespace sonar {

@@ -12,9 +12,9 @@
 #include "model/current.h"
 #include "model/depth_grid.h"
 #include "model/map_outlines.h"
-#include "session/document.h"
+#include "session/looks/picture_look.h"
 #include "session/maps/survey_map_model.h"
-#include "session/picture_look.h"
+#include "session/open/document.h"
 #include "view/maps/survey_map.h"
 
 namespace sonar {

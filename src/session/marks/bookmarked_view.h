@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "session/workspace.h"
+#include "session/open/workspace.h"
 
 namespace sonar {
 

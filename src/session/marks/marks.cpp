@@ -10,8 +10,8 @@
 
 #include "publish/picture_output.h"
 #include "session/marks/bookmarked_view.h"
-#include "session/survey_schools.h"
-#include "session/thumbnails.h"
+#include "session/open/survey_schools.h"
+#include "session/open/thumbnails.h"
 
 namespace sonar {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "base/units.h"
 #include "publish/noise_steps_picture.h"
-#include "session/screen_theme.h"
+#include "session/looks/screen_theme.h"
 #include "session/slices/school_layers.h"
 #include "session/slices/slice_build.h"
 #include "session/slices/slice_places.h"

@@ -8,8 +8,8 @@
 
 #include "pipeline/stages/noise_steps.h"
 #include "session/listening.h"
-#include "session/live_picture.h"
-#include "session/workspace.h"
+#include "session/live/live_picture.h"
+#include "session/open/workspace.h"
 #include "view/slices/slice_steps.h"
 
 namespace sonar {

@@ -13,8 +13,8 @@
 #include "pipeline/biomass/ts_table.h"
 #include "pipeline/tasks/merge.h"
 #include "pipeline/tasks/survey_numbers.h"
-#include "session/screen_theme.h"
-#include "session/survey_schools.h"
+#include "session/looks/screen_theme.h"
+#include "session/open/survey_schools.h"
 #include "view/charts/cause_chart.h"
 
 namespace sonar {

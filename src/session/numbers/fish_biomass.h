@@ -16,11 +16,11 @@
 #include "model/ts_relation.h"
 #include "pipeline/biomass/biomass.h"
 #include "session/listening.h"
-#include "session/live_picture.h"
+#include "session/live/live_picture.h"
 #include "session/numbers/fish_params.h"
 #include "session/numbers/integration.h"
 #include "session/numbers/table_rows.h"
-#include "session/workspace.h"
+#include "session/open/workspace.h"
 
 namespace sonar {
 

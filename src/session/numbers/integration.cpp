@@ -12,7 +12,7 @@
 #include "base/within_memory.h"
 #include "pipeline/survey/survey.h"
 #include "pipeline/tasks/work_folders.h"
-#include "session/survey_schools.h"
+#include "session/open/survey_schools.h"
 
 namespace sonar {
 namespace {

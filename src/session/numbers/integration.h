@@ -13,7 +13,7 @@
 #include "pipeline/integrate/integrate.h"
 #include "session/listening.h"
 #include "session/numbers/table_rows.h"
-#include "session/workspace.h"
+#include "session/open/workspace.h"
 
 namespace sonar {
 

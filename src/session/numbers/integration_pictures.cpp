@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "session/screen_theme.h"
+#include "session/looks/screen_theme.h"
 
 namespace sonar {
 

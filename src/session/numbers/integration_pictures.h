@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "session/listening.h"
-#include "session/live_picture.h"
+#include "session/live/live_picture.h"
 #include "session/numbers/integration.h"
 #include "view/charts/effort_charts.h"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "session/lists/cells.h"
-#include "session/rows.h"
+#include "session/review/rows.h"
 #include "view/charts/chart_columns.h"
 
 namespace sonar {

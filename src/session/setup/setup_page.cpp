@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "publish/setup_pictures.h"
-#include "session/screen_theme.h"
+#include "session/looks/screen_theme.h"
 
 namespace sonar {
 namespace {

@@ -7,7 +7,7 @@
 #include "pipeline/calibrate/setup_report.h"
 #include "session/app_model.h"
 #include "session/listening.h"
-#include "session/live_picture.h"
+#include "session/live/live_picture.h"
 #include "view/charts/leg_chart.h"
 
 namespace sonar {

@@ -9,7 +9,7 @@
 #include "base/within_memory.h"
 #include "pipeline/calibrate/sphere_report.h"
 #include "publish/setup_pictures.h"
-#include "session/screen_theme.h"
+#include "session/looks/screen_theme.h"
 
 namespace sonar {
 namespace {

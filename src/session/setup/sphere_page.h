@@ -10,7 +10,7 @@
 #include "pipeline/calibrate/sphere_calibration.h"
 #include "session/app_model.h"
 #include "session/listening.h"
-#include "session/live_picture.h"
+#include "session/live/live_picture.h"
 #include "view/charts/sphere_chart.h"
 
 namespace sonar {

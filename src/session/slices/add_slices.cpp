@@ -2,9 +2,9 @@
 #include <memory>
 
 #include "session/app_parts.h"
-#include "session/first_sight.h"
-#include "session/live_watch.h"
-#include "session/playback.h"
+#include "session/live/live_watch.h"
+#include "session/looks/first_sight.h"
+#include "session/playing/playback.h"
 #include "session/slices/slice_actions.h"
 #include "session/slices/slice_model.h"
 #include "session/slices/slices_follow.h"

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "base/number_text.h"
-#include "session/live_watch.h"
-#include "session/playback.h"
+#include "session/live/live_watch.h"
+#include "session/playing/playback.h"
 #include "session/slices/slice_actions.h"
 #include "session/slices/slice_places.h"
 #include "session/tools/brush_tool.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "session/workspace.h"
+#include "session/open/workspace.h"
 #include "view/theme.h"
 #include "view/volume/volume_scene.h"
 

@@ -10,8 +10,8 @@
 
 #include "base/units.h"
 #include "pipeline/stages/weak_samples.h"
-#include "publish/sample_looks.h"
-#include "session/screen_theme.h"
+#include "publish/reports/sample_looks.h"
+#include "session/looks/screen_theme.h"
 #include "view/label_room.h"
 #include "view/shapes.h"
 #include "view/slices/slice_cuts.h"

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "session/picture_look.h"
+#include "session/looks/picture_look.h"
+#include "session/open/workspace.h"
 #include "session/slices/school_layers.h"
-#include "session/workspace.h"
 #include "view/slices/slice_picture.h"
 
 namespace sonar {

@@ -9,8 +9,8 @@
 
 #include "base/units.h"
 #include "pipeline/stages/weak_samples.h"
-#include "session/refused_layer.h"
-#include "session/screen_theme.h"
+#include "session/looks/screen_theme.h"
+#include "session/review/refused_layer.h"
 #include "session/slices/slice_places.h"
 
 namespace sonar {

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "session/listening.h"
-#include "session/live_picture.h"
+#include "session/live/live_picture.h"
+#include "session/open/workspace.h"
 #include "session/slices/slice_build.h"
 #include "session/tools/brush_tool.h"
 #include "session/tools/seed_tool.h"
 #include "session/tools/slice_measure.h"
-#include "session/workspace.h"
 #include "view/slices/slice_picture.h"
 
 namespace sonar {

@@ -12,7 +12,7 @@
 #include "base/units.h"
 #include "pipeline/stages/weak_samples.h"
 #include "publish/picture_output.h"
-#include "publish/sample_looks.h"
+#include "publish/reports/sample_looks.h"
 #include "session/slices/school_layers.h"
 #include "session/slices/test_slices.h"
 #include "view/label_room.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "session/survey_schools.h"
+#include "session/open/survey_schools.h"
 
 namespace sonar {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "session/workspace.h"
+#include "session/open/workspace.h"
 
 namespace sonar {
 

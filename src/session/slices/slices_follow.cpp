@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include "session/open/survey_schools.h"
 #include "session/slices/slice_places.h"
-#include "session/survey_schools.h"
 #include "view/slices/slice_cuts.h"
 
 namespace sonar {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "session/listening.h"
-#include "session/workspace.h"
+#include "session/open/workspace.h"
 
 namespace sonar {
 

@@ -7,7 +7,7 @@
 
 #include "pipeline/stages/observe.h"
 #include "session/app_model.h"
-#include "session/playback.h"
+#include "session/playing/playback.h"
 #include "session/slices/slice_model.h"
 #include "session/test_survey.h"
 #include "session/tools/brush_tool.h"

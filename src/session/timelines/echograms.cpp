@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "publish/echogram_cache.h"
+#include "publish/echograms/echogram_cache.h"
 
 namespace sonar {
 namespace {

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "base/task_thread.h"
-#include "publish/echogram_columns.h"
-#include "session/document.h"
+#include "publish/echograms/echogram_columns.h"
 #include "session/listeners.h"
 #include "session/listening.h"
+#include "session/open/document.h"
 #include "view/timelines/echogram_pyramid.h"
 
 namespace sonar {

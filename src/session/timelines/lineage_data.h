@@ -6,7 +6,7 @@
 
 #include "pipeline/commands/state.h"
 #include "pipeline/stages/placed_events.h"
-#include "session/open_observation.h"
+#include "session/open/open_observation.h"
 #include "view/lineage/lineage.h"
 
 namespace sonar {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
-#include "session/screen_theme.h"
-#include "session/survey_schools.h"
+#include "session/looks/screen_theme.h"
+#include "session/open/survey_schools.h"
 #include "session/timelines/lineage_data.h"
 #include "view/maps/map_items.h"
 

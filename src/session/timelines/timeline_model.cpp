@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "session/refused_layer.h"
+#include "session/review/refused_layer.h"
 #include "session/timelines/timeline_painter.h"
 
 namespace sonar {

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "session/listening.h"
-#include "session/live_picture.h"
+#include "session/live/live_picture.h"
+#include "session/open/workspace.h"
 #include "session/timelines/echograms.h"
 #include "session/timelines/time_window.h"
-#include "session/workspace.h"
 #include "view/timelines/timeline.h"
 
 namespace sonar {

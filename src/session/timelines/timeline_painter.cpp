@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "pipeline/stages/observe.h"
-#include "session/screen_theme.h"
+#include "session/looks/screen_theme.h"
 
 namespace sonar {
 namespace {

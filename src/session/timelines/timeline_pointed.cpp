@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "session/refused_layer.h"
-#include "session/screen_theme.h"
+#include "session/looks/screen_theme.h"
+#include "session/review/refused_layer.h"
 #include "session/timelines/timeline_model.h"
 #include "session/timelines/timeline_painter.h"
 #include "view/maps/map_items.h"

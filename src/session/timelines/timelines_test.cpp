@@ -2,11 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "publish/echogram_cache.h"
+#include "publish/echograms/echogram_cache.h"
 #include "session/app_parts.h"
-#include "session/exports.h"
 #include "session/listening.h"
 #include "session/maps/test_maps.h"
+#include "session/pictures/exports.h"
 #include "session/timelines/timeline_painter.h"
 
 namespace sonar {

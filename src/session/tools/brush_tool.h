@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "session/listening.h"
-#include "session/workspace.h"
+#include "session/open/workspace.h"
 #include "view/slices/slice.h"
 
 namespace sonar {

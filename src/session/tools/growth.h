@@ -6,9 +6,9 @@
 
 #include "base/result.h"
 #include "model/mask.h"
-#include "session/display.h"
-#include "session/document.h"
-#include "session/workspace.h"
+#include "session/looks/display.h"
+#include "session/open/document.h"
+#include "session/open/workspace.h"
 #include "view/slices/slice.h"
 
 namespace sonar {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "session/listening.h"
-#include "session/live_picture.h"
-#include "session/workspace.h"
+#include "session/live/live_picture.h"
+#include "session/open/workspace.h"
 
 namespace sonar {
 

@@ -10,7 +10,7 @@
 #include "base/number_text.h"
 #include "base/units.h"
 #include "geo/geodesic.h"
-#include "session/place_text.h"
+#include "session/looks/place_text.h"
 
 namespace sonar {
 namespace {

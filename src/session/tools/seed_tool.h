@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "base/task_thread.h"
-#include "session/animation_driver.h"
 #include "session/listening.h"
+#include "session/open/workspace.h"
+#include "session/playing/animation_driver.h"
 #include "session/tools/growth.h"
-#include "session/workspace.h"
 
 namespace sonar {
 

@@ -6,7 +6,7 @@
 
 #include "base/units.h"
 #include "geo/geodesic.h"
-#include "publish/between_pings.h"
+#include "publish/movies/between_pings.h"
 #include "session/volume/test_volume.h"
 
 namespace sonar {

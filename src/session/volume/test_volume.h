@@ -8,8 +8,8 @@
 
 #include "publish/picture_output.h"
 #include "publish/picture_source.h"
-#include "publish/volume_picture.h"
-#include "session/screen_theme.h"
+#include "publish/volumes/volume_picture.h"
+#include "session/looks/screen_theme.h"
 #include "session/test_survey.h"
 #include "session/volume/volume_model.h"
 

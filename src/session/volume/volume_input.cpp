@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
-#include "publish/between_pings.h"
-#include "publish/volume_figure.h"
-#include "session/refused_layer.h"
-#include "session/screen_theme.h"
+#include "publish/movies/between_pings.h"
+#include "publish/volumes/volume_figure.h"
+#include "session/looks/screen_theme.h"
+#include "session/review/refused_layer.h"
 #include "session/slices/school_layers.h"
 #include "view/theme.h"
 #include "view/volume/earth_pose.h"

@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "publish/live_volume.h"
-#include "session/picture_look.h"
-#include "session/workspace.h"
+#include "publish/volumes/live_volume.h"
+#include "session/looks/picture_look.h"
+#include "session/open/workspace.h"
 
 namespace sonar {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/units.h"
-#include "session/refused_layer.h"
+#include "session/review/refused_layer.h"
 #include "session/tools/growth.h"
 #include "session/tools/measure_tool.h"
 #include "session/volume/volume_input.h"

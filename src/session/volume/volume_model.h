@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "publish/live_volume.h"
+#include "publish/volumes/live_volume.h"
 #include "session/listening.h"
-#include "session/live_picture.h"
-#include "session/workspace.h"
+#include "session/live/live_picture.h"
+#include "session/open/workspace.h"
 
 namespace sonar {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "publish/volume_figure.h"
+#include "publish/volumes/volume_figure.h"
 #include "session/volume/test_volume.h"
 
 namespace sonar {
