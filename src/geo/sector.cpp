@@ -85,6 +85,14 @@ SectorIndex Sector::index_of(const Point<Sonar>& p) const {
           fractional_index(azimuth_rad_, azimuth_bounds_, azimuth), range_.sample_at(range)};
 }
 
+int Sector::row_towards(const Point<Sonar>& p) const {
+  const SectorIndex at = index_of(p);
+  const auto whole = [](double index, int count) {
+    return static_cast<int>(std::clamp(std::round(index), 0.0, static_cast<double>(count - 1)));
+  };
+  return whole(at.fan, fans()) * beams() + whole(at.beam, beams());
+}
+
 Point<Sonar> Sector::place_at(const SectorIndex& index) const {
   const double elevation = angle_at(elevation_rad_, elevation_bounds_, index.fan);
   const double azimuth = angle_at(azimuth_rad_, azimuth_bounds_, index.beam);

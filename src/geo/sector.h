@@ -69,6 +69,8 @@ class Sector {
 
   /// Fractional index of a place; outside the beam centres it extrapolates with the outermost spacing.
   [[nodiscard]] SectorIndex index_of(const Point<Sonar>& p) const;
+  /// Row, fan x beams + beam, of the beam whose cell holds a place's direction; outside, of the outermost on that side.
+  [[nodiscard]] int row_towards(const Point<Sonar>& p) const;
   /// Where a fractional index lies, outside as index_of() has it; a range below 0 counts as 0.
   [[nodiscard]] Point<Sonar> place_at(const SectorIndex& index) const;
   /// Whether an index lies in a cell of the sector.

@@ -123,6 +123,22 @@ TEST(Sector, ContainsReachesHalfASpacingBeyondTheOutermost) {
   EXPECT_FALSE(sector.contains(sector.index_of({0.0, 0.0, -50.0})));
 }
 
+// Law: places of a cell lie towards its row, at any range; what lies outside lies towards the outermost.
+TEST(Sector, PlacesOfACellLieTowardsItsRow) {
+  const Sector sector({-0.8, -0.7, -0.45, -0.4, 0.1}, {4.0, 4.1, 4.5}, {10.0, 0.5, 40});
+  for (int row = 0; row < 15; ++row) {
+    const AngleBounds elevation = sector.elevation_bounds(row / 3);
+    const AngleBounds azimuth = sector.azimuth_bounds(row % 3);
+    for (const double share : {0.01, 0.5, 0.99}) {
+      const auto along = Sector::direction(elevation.lower + share * (elevation.upper - elevation.lower),
+                                           azimuth.upper - share * (azimuth.upper - azimuth.lower));
+      for (const double range_m : {1.0, 20.0, 300.0}) EXPECT_EQ(sector.row_towards(along * range_m), row) << share;
+    }
+  }
+  EXPECT_EQ(sector.row_towards(Sector::direction(-1.2, 3.5) * 20.0), 0);
+  EXPECT_EQ(sector.row_towards(Sector::direction(0.9, 5.0) * 20.0), 14);
+}
+
 TEST(Sector, RangeAxisInverts) {
   const RangeAxis range{-0.75, 0.375, 1000};
   EXPECT_DOUBLE_EQ(range.range_m(2.0), 0.0);

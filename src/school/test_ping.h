@@ -12,6 +12,17 @@
 
 namespace sonar::test {
 
+/// A body of 40 m x 24 m x 12 m, its middle at a range along elevation and azimuth.
+inline Ellipsoid ellipsoid(double range_m, double elevation_deg, double azimuth_deg) {
+  Ellipsoid e;
+  e.centre = Sector::direction(rad_from_deg(elevation_deg), rad_from_deg(azimuth_deg)) * range_m;
+  e.half_x = 20.0;
+  e.half_y = 12.0;
+  e.half_z = 6.0;
+  e.sv = 1e-4;
+  return e;
+}
+
 /// A ping with schools of known bodies, measured under masks of their expected echo.
 struct MeasuredPing {
   explicit MeasuredPing(double mounting_deg = 270.0)

@@ -5,99 +5,20 @@
 #include <cmath>
 
 #include "base/units.h"
-#include "render/gl/context_egl.h"
-#include "render/gl/fold_plan.h"
-#include "render/gl/gl_renderer.h"
-#include "render/gl/gl_test_scene.h"
-#include "render/gl/gl_version.h"
+#include "render/gl/test_volume_gl.h"
 #include "render/ray_rules.h"
-#include "render/reference/brute_force.h"
-#include "render/test_scenes.h"
 
 namespace sonar {
 namespace {
 
 using gl_test::Grid;
+using gl_test::grid_named;
+using gl_test::largest_step;
 using gl_test::on_black;
 using gl_test::overlapping_masks;
 using gl_test::two_masks;
-
-/// A context of its own for each test; skipped where none can be had.
-class VolumeGl : public testing::Test {
- protected:
-  void SetUp() override {
-    auto made = ContextEgl::make();
-    if (!made) GTEST_SKIP() << "no OpenGL here: " << made.error().text;
-    context_ = std::move(*made);
-    ASSERT_TRUE(context_.make_current());
-  }
-  ContextEgl context_;
-  Work work_{2};
-
-  std::unique_ptr<VolumeRenderer> renderer(const GlRendererOptions& options = {}) {
-    auto made = make_gl_renderer(options);
-    EXPECT_TRUE(made) << (made ? "" : made.error().text);
-    return made ? std::move(*made) : nullptr;
-  }
-
-  RayImage drawn(VolumeRenderer& gl, const VolumeView& view, const DrawQuality& quality = {}) {
-    auto image = gl.draw(view, quality, work_);
-    EXPECT_TRUE(image) << (image ? "" : image.error().text);
-    return image ? std::move(*image) : RayImage{};
-  }
-
-  RayImage drawn(const std::shared_ptr<const VolumeData>& volume, const OpticalTable& table, const VolumeView& view,
-                 const DrawQuality& quality = {}, std::span<const MaskLayer> masks = {},
-                 const GlRendererOptions& options = {}) {
-    const auto gl = renderer(options);
-    EXPECT_TRUE(gl->set_volume(volume));
-    EXPECT_TRUE(gl->set_transfer(table));
-    EXPECT_TRUE(gl->set_masks(masks));
-    return drawn(*gl, view, quality);
-  }
-
-  double against_truth(const std::shared_ptr<const VolumeData>& volume, const OpticalTable& table,
-                       const VolumeView& view, const DrawQuality& quality = {}, std::span<const MaskLayer> masks = {}) {
-    const RayImage truth = brute_force(*volume, table, masks, view, 0.25, work_);
-    EXPECT_GT(std::count_if(truth.rgba.begin(), truth.rgba.end(), [](const auto& p) { return p[3] > 0.1F; }),
-              static_cast<std::ptrdiff_t>(truth.rgba.size() / 300))
-        << "nothing to be seen";
-    return psnr_db(on_black(truth), on_black(drawn(volume, table, view, quality, masks)));
-  }
-};
-
-const Grid& grid_named(std::string_view name) {
-  const auto& all = gl_test::grids();
-  return *std::find_if(all.begin(), all.end(), [&](const Grid& g) { return g.name == name; });
-}
-
-/// Largest difference of any channel, in steps of 8 bits.
-double largest_step(const RayImage& a, const RayImage& b) {
-  double largest = a.size == b.size ? 0.0 : 1e9;
-  for (std::size_t i = 0; largest < 1e9 && i < a.rgba.size(); ++i) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      largest =
-          std::max(largest, 255.0 * std::abs(static_cast<double>(a.rgba[i][c]) - static_cast<double>(b.rgba[i][c])));
-    }
-  }
-  return largest;
-}
-
-/// Every 7th beam's far half and a block of samples are missing.
-std::shared_ptr<VolumeData> with_gaps(const Grid& grid) {
-  auto out = gl_test::volume_of(grid);
-  const Shape3 n = out->sv.shape();
-  for (int f = 0; f < n.fans; ++f) {
-    for (int b = 0; b < n.beams; ++b) {
-      for (int s = 0; s < n.samples; ++s) {
-        const bool lost =
-            (b % 7 == 3 && 2 * s > n.samples) || (f > n.fans / 2 && s > n.samples / 2 && s < n.samples * 2 / 3);
-        if (lost) out->sv(f, b, s) = kNoData;
-      }
-    }
-  }
-  return out;
-}
+using gl_test::VolumeGl;
+using gl_test::with_gaps;
 
 class VolumeGlGrid : public VolumeGl, public testing::WithParamInterface<Grid> {};
 
@@ -248,73 +169,6 @@ TEST_F(VolumeGl, JitteredFramesAverageToTheTruth) {
     }
   }
   EXPECT_GT(psnr_db(on_black(truth), on_black(mean)), one + 8.0) << "16 frames halve the error more than once";
-}
-
-/// Along the range, where each piece begins with the last sample of the one before; and how they lie in the texture.
-void expect_folds(const Shape3& shape, int limit) {
-  const auto plan = plan_folds(shape, limit);
-  ASSERT_TRUE(plan);
-  const int pieces = (shape.samples - 1 + limit - 2) / (limit - 1);
-  EXPECT_GT(pieces, 1) << "nothing is folded";
-  EXPECT_EQ(plan->pieces[0], pieces) << shape.samples << " samples, limit " << limit;
-  EXPECT_EQ(plan->channels, std::min(pieces * plan->pieces[1] * plan->pieces[2], 4));
-  EXPECT_TRUE(plan->folded());
-}
-
-TEST_F(VolumeGl, FoldedAndUnfoldedPicturesAreEqual) {
-  // Not bit by bit: the same place has other coordinates in another texture, rounded at about 1e-5 of a sample. Graphics
-  // cards interpolate with 8 bits of a fraction, where software takes all: 3.5 steps of 255 were seen on one.
-  const double most = draws_by_software(current_driver()) ? 1.0 : 5.0;
-  const std::vector<std::pair<Shape3, std::vector<int>>> foldings{{{10, 13, 150}, {128, 64, 33}},
-                                                                  {{20, 25, 1319}, {512, 300, 128}},
-                                                                  {{40, 60, 1319}, {512, 300, 256}},
-                                                                  {{6, 7, 10000}, {2048, 512}}};
-  for (const auto& [shape, limits] : foldings) {
-    const Grid grid{"",
-                    gl_test::evenly(-45.0, 0.0, shape.fans),
-                    gl_test::evenly(60.0, 120.0, shape.beams),
-                    {0.0, 500.0 / shape.samples, shape.samples}};
-    const auto volume = with_gaps(grid);
-    const auto masks = two_masks(shape);
-    VolumeView view = gl_test::view_of(volume->sector);
-    const DrawQuality quality{.step_samples = std::max(1.0, shape.samples / 1319.0)};
-    const RayImage whole = drawn(volume, gl_test::table_of(true), view, quality, masks);
-    for (const int limit : limits) {
-      expect_folds(shape, limit);
-      const auto gl = renderer({.most_3d = limit});
-      ASSERT_TRUE(gl->set_volume(volume)) << limit;
-      ASSERT_TRUE(gl->set_transfer(gl_test::table_of(true)));
-      ASSERT_TRUE(gl->set_masks(masks));
-      const RayImage folded = drawn(*gl, view, quality);
-      EXPECT_LT(largest_step(whole, folded), most) << shape.samples << " samples, limit " << limit;
-    }
-  }
-}
-
-TEST_F(VolumeGl, TenThousandSamplesAreFolded) {
-  const Grid grid{"", gl_test::evenly(-45.0, 0.0, 6), gl_test::evenly(60.0, 120.0, 7), {0.0, 0.05, 10000}};
-  const auto volume = gl_test::volume_of(grid);
-  const VolumeView view = gl_test::view_of(volume->sector);
-  const RayImage truth = brute_force(*volume, gl_test::table_of(false), {}, view, 0.25, work_);
-  // 2048 + 4 * 2047 >= 10000 > 2048 + 3 * 2047: five pieces, four channels and a second slot, as OpenGL 4.1 grants.
-  expect_folds(volume->sv.shape(), 2048);
-  EXPECT_EQ(plan_folds(volume->sv.shape(), 2048)->pieces[0], 5);
-  EXPECT_EQ(plan_folds(volume->sv.shape(), 2048)->slots, (std::array{2, 1}));
-  for (const int limit : {0, 2048}) {
-    const RayImage there = drawn(volume, gl_test::table_of(false), view, {.step_samples = 4.0}, {}, {.most_3d = limit});
-    EXPECT_GE(psnr_db(on_black(truth), on_black(there)), 40.0) << limit;
-  }
-}
-
-TEST_F(VolumeGl, SixteenBitsLoseNothingVisible) {
-  const auto volume = with_gaps(grid_named("even"));
-  const VolumeView view = gl_test::view_of(volume->sector);
-  for (const int limit : {0, 64}) {
-    const RayImage floats = drawn(volume, gl_test::table_of(true), view, {}, {}, {.most_3d = limit});
-    const RayImage shorts =
-        drawn(volume, gl_test::table_of(true), view, {}, {}, {.most_3d = limit, .sv_in_16_bits = true});
-    EXPECT_LT(largest_step(floats, shorts), 1.0);
-  }
 }
 
 TEST_F(VolumeGl, ThinCellsChangeLittle) {

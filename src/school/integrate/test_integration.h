@@ -26,6 +26,7 @@ struct IntegratedScene {
   std::vector<const PingMask*> schools = {};
   ExtinctionParams extinction = {};
   const Array3<std::int16_t>* filtered = nullptr;  ///< null = none
+  double pulse_m = 1.5;
   Seabed seabed = {};
   Placement placement{{60.0, 5.0}, 0.3, kTransducer_m};
 
@@ -45,7 +46,7 @@ struct IntegratedScene {
     ping.grid = &grid;
     ping.background = {background_db, calibration.view()};
     ping.placement = placement;
-    ping.pulse_m = 1.5;
+    ping.pulse_m = pulse_m;
     ping.schools = schools;
     ping.extinction = extinction;
     if (filtered != nullptr) ping.filtered = filtered->view();

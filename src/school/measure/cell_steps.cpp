@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "school/measure/cell_steps.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -15,11 +14,9 @@ namespace {
 
 /// Edges of the cell at a place: across fans, across beams, along range.
 std::array<Point<Sonar>, 3> cell_edges(const Sector& sector, const Point<Sonar>& place) {
-  SectorIndex at = sector.index_of(place);
-  at.fan = std::clamp(std::round(at.fan), 0.0, static_cast<double>(sector.fans() - 1));
-  at.beam = std::clamp(std::round(at.beam), 0.0, static_cast<double>(sector.beams() - 1));
-  const AngleBounds elevation = sector.elevation_bounds(static_cast<int>(at.fan));
-  const AngleBounds azimuth = sector.azimuth_bounds(static_cast<int>(at.beam));
+  const int row = sector.row_towards(place);
+  const AngleBounds elevation = sector.elevation_bounds(row / sector.beams());
+  const AngleBounds azimuth = sector.azimuth_bounds(row % sector.beams());
   const double elevation_rad = 0.5 * (elevation.lower + elevation.upper);
   const double azimuth_rad = 0.5 * (azimuth.lower + azimuth.upper);
   const double range = norm(place);

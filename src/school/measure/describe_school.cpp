@@ -89,22 +89,13 @@ void describe_echo(const MeasureInput& ping, const PingMask& mask, const std::ve
   row.mass_depth_m = ping.placement.transducer_depth_m + centre.z;
 }
 
-/// The row of the grid that looks to a place, for its beam's widths.
-std::size_t row_towards(const Sector& sector, const Point<Sonar>& place) {
-  const SectorIndex index = sector.index_of(place);
-  const auto whole = [](double at, int count) {
-    return static_cast<std::size_t>(std::clamp(std::round(at), 0.0, static_cast<double>(count - 1)));
-  };
-  return whole(index.fan, sector.fans()) * static_cast<std::size_t>(sector.beams()) + whole(index.beam, sector.beams());
-}
-
 void describe_resolution(const MeasureInput& ping, const PingMask& mask, const MaskShape& shape, SchoolPingRow& row) {
   const Sector& sector = *ping.sector;
   const IndexBox box = box_of(mask, sector.beams());
   const double across = sector.azimuth_bounds(box.last_beam).upper - sector.azimuth_bounds(box.first_beam).lower;
   const double upright = sector.elevation_bounds(box.last_fan).upper - sector.elevation_bounds(box.first_fan).lower;
   const double level = std::hypot(shape.centre.x, shape.centre.y) / norm(shape.centre);
-  const std::size_t beam = row_towards(sector, shape.centre);
+  const auto beam = static_cast<std::size_t>(sector.row_towards(shape.centre));
   const double above_db = row.sv_mean_db - row.threshold_db;
   row.diner_nb_across =
       diner_relative_size(deg_from_rad(across) * level, ping.grid->horizontal_width_deg[beam], above_db);

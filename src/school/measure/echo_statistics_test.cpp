@@ -17,13 +17,7 @@ namespace {
 class Echoes : public testing::Test {
  protected:
   Echoes() {
-    test::Ellipsoid e;
-    e.centre = Sector::direction(rad_from_deg(-20.0), rad_from_deg(270.0)) * 120.0;
-    e.half_x = 20.0;
-    e.half_y = 12.0;
-    e.half_z = 6.0;
-    e.sv = 1e-4;
-    ping_.add(e);
+    ping_.add(test::ellipsoid(120.0, -20.0, 270.0));
     const sonar::Run& faulty = ping_.mask.runs[ping_.mask.runs.size() / 2];
     for (int s = faulty.first_sample; s < faulty.end(); s += 2)
       ping_.flags(row(faulty), beam(faulty), s) |= SampleFlags::impulse;

@@ -47,6 +47,10 @@ inline Sector hand_sector() {
   return Sector(radians(even_deg(-70, 10, 8)), radians(even_deg(240, 10, 7)), {0.0, 5.0, 41});
 }
 
+/// One of its voxels, and the slice from above through it.
+inline const Voxel kLit{4, 3, 20};
+inline const SliceView kTop{TopSlice{4}};
+
 /// Volume with one value everywhere but in one voxel.
 struct LitVolume {
   Array3<std::int16_t> sv;

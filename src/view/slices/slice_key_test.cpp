@@ -11,11 +11,10 @@ namespace sonar {
 namespace {
 
 using slice_example::hand_sector;
+using slice_example::kLit;
+using slice_example::kTop;
 using slice_example::LitVolume;
 using slice_example::texts_of;
-
-const Voxel kLit{4, 3, 20};
-const SliceView kTop{TopSlice{4}};
 
 // What is not drawn as recorded is said below the slice, in the flags' own words; a plain slice has no key.
 TEST(SlicePicture, AKeySaysWhatIsNotDrawnAsRecorded) {

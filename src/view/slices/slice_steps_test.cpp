@@ -12,11 +12,11 @@ namespace sonar {
 namespace {
 
 using slice_example::hand_sector;
+using slice_example::kLit;
+using slice_example::kTop;
 using Shows = SliceStepPlace::Shows;
 
 constexpr PixelSize kSize{1200, 800};
-const SliceView kTop{TopSlice{4}};
-const Voxel kLit{4, 3, 20};
 
 std::int16_t counts(double db) { return static_cast<std::int16_t>(std::lround(counts_from_db(db))); }
 
