@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "school/grow/grow.h"
+#include "school/measure/correct_sizes.h"
 #include "school/measure/measure.h"
 #include "school/measure/school_errors.h"
 #include "school_looks.h"
@@ -61,7 +62,7 @@ class School {
 
   /// One look, of several pings; repeats are wanted where they are not null.
   std::vector<SchoolPingRow> look(double tolerance_db, std::vector<Repeats>* repeats, Costs& costs) {
-    std::vector<SchoolPingRow> rows;
+    std::vector<MeasuredSchool> seen;
     for (int ping = 0; ping < pings_; ++ping) {
       see();
       const double loud_db = db_from_counts(percentile(filtered_.view(), truth_, 0.95));
@@ -70,9 +71,9 @@ class School {
           grow(filtered_.view(), flags_.view(), MemberTable::one_sided(loud_db, tolerance_db), seed, {});
       const MeasureInput input = input_of(loud_db - tolerance_db);
       const auto start = std::clock();
-      rows.push_back(measure_row(input, mask, measure_));
-      rows.back().ping_index = ping;
-      rows.back().time_utc = TimeNs{2'000'000'000} * ping;
+      seen.push_back(measure(input, mask, measure_));
+      seen.back().row.ping_index = ping;
+      seen.back().row.time_utc = TimeNs{2'000'000'000} * ping;
       if (repeats == nullptr) continue;
       costs.measuring += ms_since(start);
       const auto again = std::clock();
@@ -82,7 +83,9 @@ class School {
       costs.repeating += ms_since(again);
       ++costs.pings;
     }
-    return rows;
+    SchoolThroughPings school;
+    for (const MeasuredSchool& one : seen) school.push_back(&one);
+    return correct_sizes({school}, measure_);
   }
 
  private:

@@ -35,7 +35,7 @@ TEST(Csv, header_is_the_published_one) {
             "sphericity_se,roughness_se,n_vacuoles_se,vacuole_fraction_se,n_nuclei_se,sv_p5_se_db,sv_p50_se_db,"
             "sv_robust_mean_se_db,sv_variation_se,sv_skewness_se,sv_kurtosis_se,core_edge_se_db,nasc_se_m2_nmi2,"
             "surface_distance_se_m,bottom_distance_se_m,horizontal_range_se_m,diner_nb_across_se,"
-            "diner_nb_height_se\n");
+            "diner_nb_height_se,volume_corrected_se_m3,sv_corrected_se_db\n");
   EXPECT_EQ(csv_text(std::vector<SchoolPingRow>{}),
             "observation,school_id,ping_index,time_utc,latitude,longitude,depth_m,range_m,bearing_deg,n_voxels,n_beams,"
             "n_fans,volume_m3,length_m,width_m,height_m,axis_deg,depth_min_m,depth_max_m,sv_mean_db,sv_p95_db,"

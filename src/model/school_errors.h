@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string_view>
@@ -49,8 +50,17 @@ inline constexpr auto kErrorColumns = std::to_array<ErrorColumn>({
     {"horizontal_range_se_m", "m", "horizontal_range_m"},
     {"diner_nb_across_se", "1", "diner_nb_across"},
     {"diner_nb_height_se", "1", "diner_nb_height"},
+    {"volume_corrected_se_m3", "m3", "volume_corrected_m3"},
+    {"sv_corrected_se_db", "dB", "sv_corrected_db"},
 });
 inline constexpr std::size_t kErrorCount = kErrorColumns.size();
+
+/// Place of a figure's error among them; kErrorCount = it has none.
+[[nodiscard]] constexpr std::size_t error_at(std::string_view figure) {
+  return static_cast<std::size_t>(std::find_if(kErrorColumns.begin(), kErrorColumns.end(),
+                                               [&](const ErrorColumn& one) { return one.figure == figure; }) -
+                                  kErrorColumns.begin());
+}
 
 /// One value for each of kErrorColumns.
 using FigureValues = std::array<double, kErrorCount>;

@@ -71,8 +71,8 @@ TEST(SchoolColumns, OfTracks) {
             "sphericity_se,roughness_se,n_vacuoles_se,vacuole_fraction_se,n_nuclei_se,sv_p5_se_db,sv_p50_se_db,"
             "sv_robust_mean_se_db,sv_variation_se,sv_skewness_se,sv_kurtosis_se,core_edge_se_db,nasc_se_m2_nmi2,"
             "surface_distance_se_m,bottom_distance_se_m,horizontal_range_se_m,diner_nb_across_se,"
-            "diner_nb_height_se");
-  EXPECT_EQ(names.seen.size(), 109U);
+            "diner_nb_height_se,volume_corrected_se_m3,sv_corrected_se_db");
+  EXPECT_EQ(names.seen.size(), 111U);
 }
 
 // 1 fore, 2 aft, 4 top fan, 8 bottom fan, 16 near, 32 far, 64 seabed, 128 surface, 256 flagged data.

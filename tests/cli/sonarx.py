@@ -50,7 +50,8 @@ SCHOOLS = (
     "area_se_m2,equivalent_radius_se_m,box_length_se_m,box_width_se_m,box_thickness_se_m,sphericity_se,"
     "roughness_se,n_vacuoles_se,vacuole_fraction_se,n_nuclei_se,sv_p5_se_db,sv_p50_se_db,sv_robust_mean_se_db,"
     "sv_variation_se,sv_skewness_se,sv_kurtosis_se,core_edge_se_db,nasc_se_m2_nmi2,surface_distance_se_m,"
-    "bottom_distance_se_m,horizontal_range_se_m,diner_nb_across_se,diner_nb_height_se").split(",")
+    "bottom_distance_se_m,horizontal_range_se_m,diner_nb_across_se,diner_nb_height_se,"
+    "volume_corrected_se_m3,sv_corrected_se_db").split(",")
 
 
 def run(*arguments, timeout=600, cache=WORK / "cache"):

@@ -15,7 +15,7 @@ namespace sonar {
 namespace {
 
 /// Raised when a member comes, goes or changes its meaning.
-constexpr int kVersion = 3;
+constexpr int kVersion = 4;
 
 /// Hands every column of a row to an archive.
 template <class Io>

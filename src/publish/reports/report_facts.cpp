@@ -84,6 +84,10 @@ ReportSchool school_of(const CountedSchool& counted, std::span<const Observation
   out.length_m = longest->length_m;
   out.sv_mean_db = longest->sv_mean_db;
   out.backscatter_m2 = counted.backscatter_m2;
+  out.depth_se_m = longest->se[error_at("depth_m")];
+  out.length_se_m = longest->se[error_at("length_m")];
+  out.sv_mean_se_db = longest->se[error_at("sv_mean_db")];
+  if (counted.rows.size() == 1) out.backscatter_se_m2 = first.backscatter_total_se_m2;
   out.status = longest->status;
   return out;
 }

@@ -26,7 +26,11 @@ struct ReportSchool {
   double length_m = kUnknown;
   double sv_mean_db = kUnknown;
   double backscatter_m2 = kUnknown;  ///< of the school as totals count it
-  std::int64_t pings = 0;            ///< of all rows
+  double depth_se_m = kUnknown;      ///< standard errors, where the run told them
+  double length_se_m = kUnknown;
+  double sv_mean_se_db = kUnknown;
+  double backscatter_se_m2 = kUnknown;  ///< by fading; that of a school of several rows is not known
+  std::int64_t pings = 0;               ///< of all rows
   std::string status;
   std::string species;
 };

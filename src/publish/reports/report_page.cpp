@@ -40,6 +40,9 @@ constexpr const char* kMeaning =
     "4\u03C0. Rejected "
     "schools are not counted. Times are UTC, places WGS 84.";
 
+constexpr const char* kErrorMeaning =
+    " \u00B1: one standard error, as the run told it; that of backscatter is by fading alone.";
+
 /// A picture that could not be made leaves a line in its place; only a stop is passed on.
 Result<void> place_or_say(FrameDescription& page, const Result<FrameDescription>& picture, const PixelRect& place,
                           const Theme& theme) {
@@ -177,7 +180,8 @@ class Page {
     page_.items.emplace_back(
         line_item({kMargin, y - kReportRow_px}, {kMargin + kWidth, y - kReportRow_px}, theme_.axis, 0.7));
     constexpr double kSmall = kReportText_px - 1.0;
-    for (const std::string& line : wrapped(kMeaning, kWidth, kSmall)) {
+    const std::string meaning = kMeaning + std::string(has_errors(facts_.schools) ? kErrorMeaning : "");
+    for (const std::string& line : wrapped(meaning, kWidth, kSmall)) {
       page_.items.emplace_back(text_item({kMargin, y - 4.0}, line, kSmall, theme_.muted));
       y += 1.45 * kSmall;
     }

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,44 @@ TEST(Report, HoldsTheStrongestSchoolsAndTheirNumber) {
   EXPECT_THAT(words, Contains(HasSubstr("SYNTHETIC")));
 }
 
+/// Of one school, whose figures have errors where they are wanted.
+std::vector<std::string> texts_of_one(bool errors) {
+  ObservationProduct product = example::empty("obs-0001", 5);
+  example::add_school(product, 1, 0, 3, example::block(1, 1, 2, 20, 8, 200));
+  SchoolRow& row = product.schools.back();
+  row.depth_m = 163.2;
+  row.length_m = 123.4;
+  row.sv_mean_db = -45.3;
+  row.backscatter_total_m2 = 0.00512;
+  row.backscatter_total_se_m2 = kUnknown;
+  row.se = unknown_figures();
+  if (errors) {
+    row.se[error_at("depth_m")] = 12.4;
+    row.se[error_at("length_m")] = 13.04;
+    row.se[error_at("sv_mean_db")] = 0.7;
+    row.backscatter_total_se_m2 = 0.0006;
+  }
+  const auto source = PictureSource::of(nullptr, {product}, Recipe{});
+  const auto page = page_of(*source);
+  return page ? texts(*page) : std::vector<std::string>{to_line(page.error())};
+}
+
+TEST(Report, FiguresHaveTheirErrorsBehindThem) {
+  const auto words = texts_of_one(true);
+  EXPECT_THAT(words, Contains("163.2 \u00B1 12.4"));
+  EXPECT_THAT(words, Contains("123.4 \u00B1 13.0"));
+  EXPECT_THAT(words, Contains("\u221245.3 \u00B1 0.7"));
+  EXPECT_THAT(words, Contains("0.00512 \u00B1 0.00060"));
+  EXPECT_THAT(words, Contains(HasSubstr("one standard error")));
+}
+
+TEST(Report, TellsNoErrorsWhereThereAreNone) {
+  const auto words = texts_of_one(false);
+  EXPECT_THAT(words, Contains("163.2"));
+  EXPECT_THAT(words, Contains("123"));
+  EXPECT_THAT(words, testing::Each(Not(HasSubstr("\u00B1"))));
+}
+
 TEST(Report, NothingLeavesThePaperOrItsNeighboursColumn) {
   for (const int schools : {0, 1, 5, 60, 2000}) {
     const auto source = survey(schools, std::string(300, 'W') + " SYNTHETIC");
@@ -101,13 +140,15 @@ TEST(ReportFacts, CountWhatTotalsCount) {
   for (int i = 1; i <= 3; ++i) {
     example::add_school(product, i, 0, 3, example::block(1, 1, 2, 20, 8, 200));
     product.schools.back().backscatter_m2 = i;
+    product.schools.back().backscatter_total_se_m2 = 0.1 * i;
   }
   product.schools[2].status = "rejected";
   product.schools[1].continues = "obs-0001/1";
   product.pings[1].bad = true;
   const auto source = PictureSource::of(nullptr, {product}, Recipe{});
   const ReportFacts facts = report_facts(source->observations(), Recipe{});
-  EXPECT_EQ(facts.schools.size(), 1U) << "the second row is part of the first school";
+  ASSERT_EQ(facts.schools.size(), 1U) << "the second row is part of the first school";
+  EXPECT_TRUE(std::isnan(facts.schools[0].backscatter_se_m2)) << "of two rows";
   EXPECT_EQ(facts.rejected, 1U);
   const auto line = [&](const std::string& name) {
     for (const auto& [key, value] : facts.lines) {
@@ -118,6 +159,21 @@ TEST(ReportFacts, CountWhatTotalsCount) {
   EXPECT_EQ(line("Pings"), "5, 1 of them bad");
   EXPECT_THAT(line("Schools"), HasSubstr("1 rejected, not counted"));
   EXPECT_THAT(line("Program"), testing::StartsWith("Sonar Explorer "));
+}
+
+// 63.2 m are 34.56 fathoms of 1.8288 m.
+TEST(ReportTable, ErrorsAreInTheUnitOfTheirFigures) {
+  ReportSchool school;
+  school.depth_m = 63.2;
+  school.depth_se_m = 1.4;
+  school.backscatter_m2 = 2.34e-4;
+  school.backscatter_se_m2 = 2e-5;
+  Theme theme = light_theme({794, 1123});
+  theme.units.lengths = LengthUnit::fathoms;
+  FrameDescription page;
+  add_report_table(page, {40.0, 40.0, 714.0, 100.0}, std::vector{school}, theme);
+  EXPECT_THAT(texts(page), Contains("34.6 \u00B1 0.8"));
+  EXPECT_THAT(texts(page), Contains("(2.34 \u00B1 0.20)e-04"));
 }
 
 TEST(ReportTable, HasNoMoreRowsThanRoom) {

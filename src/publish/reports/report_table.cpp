@@ -20,32 +20,46 @@ namespace {
 struct Column {
   const char* head;
   double width;  ///< share of the table's
+  double wider;  ///< by so much where figures have errors
   bool number;
   bool length = false;  ///< its unit stands behind its head
 };
-constexpr std::array<Column, 12> kColumns{{{"No.", 0.04, true},
-                                           {"School", 0.105, false},
-                                           {"First seen (UTC)", 0.128, false},
-                                           {"Latitude", 0.092, false},
-                                           {"Longitude", 0.098, false},
-                                           {"Depth", 0.064, true, true},
-                                           {"Length", 0.072, true, true},
-                                           {"Sv dB", 0.058, true},
-                                           {"Backsc. m\u00B2", 0.092, true},
-                                           {"Pings", 0.05, true},
-                                           {"Status", 0.091, false},
-                                           {"Species", 0.11, false}}};
+constexpr std::array<Column, 12> kColumns{{{"No.", 0.04, 0.0, true},
+                                           {"School", 0.105, -0.003, false},
+                                           {"First seen (UTC)", 0.128, -0.008, false},
+                                           {"Latitude", 0.092, 0.0, false},
+                                           {"Longitude", 0.098, 0.0, false},
+                                           {"Depth", 0.064, 0.016, true, true},
+                                           {"Length", 0.072, 0.008, true, true},
+                                           {"Sv dB", 0.058, 0.014, true},
+                                           {"Backsc. m\u00B2", 0.092, 0.026, true},
+                                           {"Pings", 0.05, -0.005, true},
+                                           {"Status", 0.091, -0.008, false},
+                                           {"Species", 0.11, -0.04, false}}};
 
 /// Not known = a dash.
 std::string decimals(double value, int digits) {
   return std::isfinite(value) ? tick_text(value, digits) : std::string("\u2013");
 }
 
-/// Three digits that count.
-std::string three_digits(double value) {
+/// With its standard error behind it where there is one, which needs a decimal.
+std::string with_error(double value, double se, int digits) {
+  if (!std::isfinite(value) || !std::isfinite(se)) return decimals(value, digits);
+  return fmt::format("{} \u00B1 {}", tick_text(value, 1), tick_text(se, 1));
+}
+
+/// Three digits that count, and as many decimals of the standard error.
+std::string three_digits(double value, double se) {
   if (!std::isfinite(value)) return "\u2013";
-  if (!(value >= 0.001) || value >= 1e6) return fmt::format("{:.2e}", value);
-  return fmt::format("{:.{}f}", value, std::max(0, 2 - static_cast<int>(std::floor(std::log10(value)))));
+  const bool known = std::isfinite(se);
+  const bool plain = value >= 0.001 && value < 1e6;
+  if (!plain && (!known || !(value > 0.0))) return fmt::format("{:.2e}", value);
+  const int power = static_cast<int>(std::floor(std::log10(value)));
+  const double unit = plain ? 1.0 : std::pow(10.0, power);
+  const int digits = plain ? std::max(0, 2 - power) : 2;
+  if (!known) return fmt::format("{:.{}f}", value, digits);
+  const std::string both = fmt::format("{:.{}f} \u00B1 {:.{}f}", value / unit, digits, se / unit, digits);
+  return plain ? both : fmt::format("({})e{:+03}", both, power);
 }
 
 std::array<std::string, kColumns.size()> cells(const ReportSchool& s, const Unit& length) {
@@ -56,10 +70,10 @@ std::array<std::string, kColumns.size()> cells(const ReportSchool& s, const Unit
           clock_text(s.first_time, false),
           placed ? latitude_text(s.latitude, kStep_deg) : "\u2013",
           placed ? longitude_text(s.longitude, kStep_deg) : "\u2013",
-          decimals(length.of(s.depth_m), 1),
-          decimals(length.of(s.length_m), 0),
-          decimals(s.sv_mean_db, 1),
-          three_digits(s.backscatter_m2),
+          with_error(length.of(s.depth_m), length.of(s.depth_se_m), 1),
+          with_error(length.of(s.length_m), length.of(s.length_se_m), 0),
+          with_error(s.sv_mean_db, s.sv_mean_se_db, 1),
+          three_digits(s.backscatter_m2, s.backscatter_se_m2),
           fmt::format("{}", s.pings),
           s.status,
           s.species};
@@ -81,13 +95,21 @@ std::size_t report_rows(double height_px) {
   return height_px < 2.0 * kReportRow_px ? 0 : static_cast<std::size_t>(height_px / kReportRow_px) - 1;
 }
 
+bool has_errors(std::span<const ReportSchool> schools) {
+  return std::ranges::any_of(schools, [](const ReportSchool& s) {
+    return std::isfinite(s.depth_se_m) || std::isfinite(s.length_se_m) || std::isfinite(s.sv_mean_se_db) ||
+           std::isfinite(s.backscatter_se_m2);
+  });
+}
+
 void add_report_table(FrameDescription& page, const PixelRect& place, std::span<const ReportSchool> schools,
                       const Theme& theme) {
   double y = place.y + 0.5 * kReportRow_px;
+  const double wider = has_errors(schools) ? 1.0 : 0.0;
   const auto row = [&](const auto& words, Rgba8 colour) {
     double left = place.x;
     for (std::size_t i = 0; i < kColumns.size(); ++i) {
-      const double width = kColumns[i].width * place.width;
+      const double width = (kColumns[i].width + wider * kColumns[i].wider) * place.width;
       add_cell(page, left, width, y, words[i], kColumns[i].number, colour);
       left += width;
     }

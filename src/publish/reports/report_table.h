@@ -20,7 +20,9 @@ inline constexpr double kReportRow_px = 13.0;
 
 /// How many schools a table of that height has rows for, its head apart.
 [[nodiscard]] std::size_t report_rows(double height_px);
-/// The first schools that have room; behind them how many there are beyond.
+/// Whether any figure that the table shows has a standard error.
+[[nodiscard]] bool has_errors(std::span<const ReportSchool> schools);
+/// Figures with their standard errors behind them, where there are any. The first schools that have room; behind them how many there are beyond.
 void add_report_table(FrameDescription& page, const PixelRect& place, std::span<const ReportSchool> schools,
                       const Theme& theme);
 /// Names and values in two columns; the height that they take.

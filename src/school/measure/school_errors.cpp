@@ -12,7 +12,9 @@
 
 #include "base/check.h"
 #include "base/units.h"
+#include "school/measure/body_echo.h"
 #include "school/measure/cell_steps.h"
+#include "school/measure/correct_sizes.h"
 #include "school/measure/fading_field.h"
 #include "school/measure/measure.h"
 #include "school/measure/repeat_ping.h"
@@ -24,6 +26,8 @@ namespace {
 constexpr std::size_t kOthers = 3;
 /// So many ways to put a school together of its pings' fadings: with 16, what they are drawn by adds as much as their number.
 constexpr std::size_t kDraws = 64;
+constexpr std::size_t kCorrectedVolume = error_at("volume_corrected_m3");
+constexpr std::size_t kCorrectedSv = error_at("sv_corrected_db");
 
 /// Finds the figures that have an error, by the number of their column in a table.
 struct FigureFinder {
@@ -139,15 +143,22 @@ class RepeatedSchool {
 
   /// which(ping, n) = index of its repeat among n
   FigureValues repeated(const auto& which) {
+    bool told = true;  // how the corrected volume scatters
     for (std::size_t i = 0; i < others_.size(); ++i) {
       const auto& [ping, repeats] = sources_[i];
       const auto& repeat = (*repeats)[which(i, repeats->size())];
       for_each_figure(others_[i], [&](std::size_t at, double& value) {
-        value = figures_[i][at] + (static_cast<double>(repeat[at]) - figures_[ping][at]);
+        const auto again = static_cast<double>(repeat[at]);
+        value = at == kCorrectedVolume ? figures_[i][at] * again : figures_[i][at] + (again - figures_[ping][at]);
       });
-      // summarise() takes the echo of pings that know a corrected volume, which a repeat does not change.
+      // summarise() takes the echo of pings that know a corrected volume: no repeat changes which.
+      if (std::isfinite(others_[i].volume_corrected_m3)) continue;
+      told = told && std::isnan(figures_[i][kCorrectedVolume]);
+      others_[i].volume_corrected_m3 = figures_[i][kCorrectedVolume];
     }
-    return figures_of(summarise(others_, summary_));
+    FigureValues out = figures_of(summarise(others_, summary_));
+    if (!told) out[kCorrectedVolume] = out[kCorrectedSv] = kUnknown;
+    return out;
   }
 
   const SummariseParams& summary_;
@@ -157,6 +168,41 @@ class RepeatedSchool {
   std::vector<Source> sources_;
   std::size_t fadings_ = kFadings;
 };
+
+/// Puts shares of their mean in the place of corrected volumes: in one ping alone they differ from what a ping and its
+/// neighbours tell. A look that hides the body takes the share of the one before; unknown where half of them hide it.
+/// looks  under other fading, and two other thresholds
+void put_volume_shares(Repeats& looks) {
+  const auto is_known = [](const auto& look) { return std::isfinite(look[kCorrectedVolume]); };
+  const auto thresholds = looks.end() - 2;
+  double sum = 0.0;
+  std::ptrdiff_t known = 0;
+  for (auto look = looks.begin(); look != thresholds; ++look) {
+    if (!is_known(*look)) continue;
+    sum += static_cast<double>((*look)[kCorrectedVolume]);
+    ++known;
+  }
+  const bool tells = 2 * known > thresholds - looks.begin() && std::all_of(thresholds, looks.end(), is_known);
+  double share = tells ? 1.0 : kUnknown;
+  for (auto& look : looks) {
+    if (tells && is_known(look)) share = static_cast<double>(look[kCorrectedVolume]) * static_cast<double>(known) / sum;
+    look[kCorrectedVolume] = static_cast<float>(share);
+  }
+}
+
+/// Figures of one ping's looks, corrected sizes by each look alone under the shape of beam that is likeliest for all.
+Repeats figures_of_looks(const std::vector<MeasuredSchool>& looks, const MeasureParams& measure) {
+  std::vector<SchoolThroughPings> alone;
+  for (const MeasuredSchool& look : looks) alone.push_back({&look});
+  Repeats repeats;
+  for (const SchoolPingRow& row : correct_sizes(alone, measure)) {
+    const FigureValues figures = figures_of(row);
+    std::transform(figures.begin(), figures.end(), repeats.emplace_back().begin(),
+                   [](double v) { return static_cast<float>(v); });
+  }
+  put_volume_shares(repeats);
+  return repeats;
+}
 
 /// Their standard deviation, so much wider that 1.96 of it are the 95 % of Student's t for kErrorFreedom.
 /// fadings  of a ping: where they are few, each comes up several times and the mean of a ping's hardly differs
@@ -212,17 +258,17 @@ FigureValues figures_of(const SchoolRow& row) { return read_figures(row); }
 Repeats measure_repeats(const MeasureInput& ping, const PingMask& mask, const MedianParams& median, double tolerance_db,
                         std::uint64_t seed, std::size_t fadings, const MeasureParams& measure,
                         const ErrorParams& params) {
-  Repeats repeats;
   // Unfiltered, the echo's own fading cannot be told from what fades.
   if (!params.enabled || fadings == 0 || !median.enabled || ping.filtered.data() == nullptr ||
       std::isnan(ping.threshold_db)) {
-    return repeats;
+    return {};
   }
+  std::vector<MeasuredSchool> looks;
   const auto add = [&](const MeasureInput& input, const PingMask& other) {
-    repeats.emplace_back();
-    const FigureValues figures = other.empty() ? unknown_figures() : figures_of(measure_row(input, other, measure));
-    std::transform(figures.begin(), figures.end(), repeats.back().begin(),
-                   [](double v) { return static_cast<float>(v); });
+    MeasuredSchool& look = looks.emplace_back();
+    if (other.empty()) return;
+    look.row = measure_row(input, other, measure);
+    if (std::isfinite(look.row.range_m)) look.body = body_echo(input, other, measure);
   };
   PingRepeater repeater(ping, mask, median, tolerance_db);
   for (std::size_t k = 0; k < fadings; ++k) {
@@ -238,6 +284,7 @@ Repeats measure_repeats(const MeasureInput& ping, const PingMask& mask, const Me
     input.threshold_db += step_db;
     add(input, repeater.at_threshold(step_db));
   }
+  Repeats repeats = figures_of_looks(looks, measure);
   repeats.emplace_back();
   const FigureValues steps = cell_steps(ping, mask, measure_row(ping, mask, measure));
   std::transform(steps.begin(), steps.end(), repeats.back().begin(), [](double v) { return static_cast<float>(v); });

@@ -80,14 +80,15 @@ inline constexpr std::size_t kFadings = kErrorFreedom + 1;
 }
 
 /// Figures of one school in one ping as they would come out under other fading, under two other thresholds, below and above,
-/// and last the cell_steps() of the ping. Empty = not known.
+/// and last the cell_steps() of the ping. Empty = not known. In the place of a corrected volume stands its share of the mean of
+/// the former.
 using Repeats = std::vector<std::array<float, kErrorCount>>;
 
 /// Figures that have a standard error, in the order of kErrorColumns.
 [[nodiscard]] FigureValues figures_of(const SchoolPingRow& row);
 [[nodiscard]] FigureValues figures_of(const SchoolRow& row);
 
-/// Measures a school again, fadings + 2 times, by measure_row() itself.
+/// Measures a school again, fadings + 2 times, by measure_row() and correct_sizes() themselves.
 /// Fading: the echo is taken as its median-filtered level, smoothed, times exponential fading, which neighbouring voxels share as
 /// they do (fading_field.h). That is filtered; the mask is where it lies above the mask's threshold, beside the mask that
 /// was; a voxel that stands against the threshold (a human's) stays. The threshold moves with the school's loud part.
@@ -107,6 +108,8 @@ using Repeats = std::vector<std::array<float, kErrorCount>>;
 /// that was, under fadings of its own. Unknown where none was.
 /// What moves by whole cells may have stood still in all repeats, and yet not in the next: a step that none of n shows is taken
 /// to come 0.5 times in n + 1 (Jeffreys' prior; Brown, Cai & DasGupta 2001, Statistical Science 16).
+/// Corrected volumes scatter by shares, as one ping tells without its neighbours: pooled or not, the mean of n independent heights
+/// scatters by the root of n less. Unknown where the looks at any of the pings hide it.
 /// A count that no repeat changes has none: of 16, none may show what happens in one look of twenty.
 /// rows     of the school, rising time
 /// repeats  [row]; empty = not measured again

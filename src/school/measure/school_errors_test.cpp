@@ -17,6 +17,7 @@
 #include "base/units.h"
 #include "school/grow/grow.h"
 #include "school/measure/cell_steps.h"
+#include "school/measure/correct_sizes.h"
 #include "school/measure/fading_field.h"
 #include "school/measure/measure.h"
 #include "school/test_ping.h"
@@ -24,18 +25,10 @@
 namespace sonar {
 namespace {
 
-double error_of(const FigureValues& errors, std::string_view figure) {
-  for (std::size_t i = 0; i < kErrorCount; ++i) {
-    if (kErrorColumns[i].figure == figure) return errors[i];
-  }
-  return kUnknown;
-}
+double error_of(const FigureValues& errors, std::string_view figure) { return errors.at(error_at(figure)); }
 
-std::size_t backscatter_at() {
-  std::size_t i = 0;
-  while (kErrorColumns[i].figure != "backscatter_m2") ++i;
-  return i;
-}
+constexpr std::size_t kBackscatter = error_at("backscatter_m2");
+constexpr std::size_t kCorrectedVolume = error_at("volume_corrected_m3");
 
 SchoolPingRow row_of(double volume_m3) {
   SchoolPingRow row;
@@ -53,6 +46,7 @@ Repeats unchanged(const SchoolPingRow& row) {
   Repeats repeats(kFadings + 3);
   for (std::size_t k = 0; k < kFadings + 2; ++k) {
     for (std::size_t i = 0; i < kErrorCount; ++i) repeats[k][i] = static_cast<float>(figures[i]);
+    repeats[k][kCorrectedVolume] = 1.0F;  // its share of the mean
   }
   return repeats;  // no steps
 }
@@ -88,6 +82,68 @@ TEST(SchoolErrors, FadingAndThresholdAddInQuadrature) {
   const std::vector<const Repeats*> unknown{&none};
   EXPECT_TRUE(std::isnan(error_of(school_errors(rows, unknown, {}, params), "volume_m3")))
       << "it was not measured again";
+}
+
+ErrorParams nothing_alike() {
+  ErrorParams params;
+  params.threshold_db = params.calibration_db = params.sound_speed_percent = params.tilt_deg = 0.0;
+  return params;
+}
+
+/// Its corrected volume is 500 m^3.
+SchoolPingRow corrected_row() {
+  SchoolPingRow row = row_of(1000.0);
+  row.volume_corrected_m3 = 500.0;
+  return row;
+}
+
+// 0.5 % of sound speed is 1.5 % of a volume, corrected or not, and as much of sv as of the mean Sv.
+TEST(SchoolErrors, CorrectedSizesThatStandStillErrOnlyByWhatIsAlike) {
+  const std::vector<SchoolPingRow> rows(9, corrected_row());
+  const Repeats one = unchanged(rows.front());
+  const std::vector<const Repeats*> repeats(rows.size(), &one);
+  const FigureValues still = school_errors(rows, repeats, {}, nothing_alike());
+  EXPECT_EQ(error_of(still, "volume_corrected_m3"), 0.0);
+  EXPECT_EQ(error_of(still, "sv_corrected_db"), 0.0);
+  const FigureValues alike = school_errors(rows, repeats, {}, {});
+  EXPECT_NEAR(error_of(alike, "volume_corrected_m3"), 7.5, 1e-6);
+  EXPECT_NEAR(error_of(alike, "sv_corrected_db"), std::hypot(0.5, 10.0 * std::log10(1.005)), 1e-6);
+}
+
+// By hand: shares of 1.1 and 0.9 in turn, whose dB lie (0.4139 + 0.4576) / 2 to both sides of their mean. Where the echo scatters
+// with the volume, their ratio does not.
+TEST(SchoolErrors, CorrectedSvErrsByTheRatioOfEchoAndVolume) {
+  const std::vector<SchoolPingRow> rows{corrected_row()};
+  Repeats one = unchanged(rows.front());
+  const auto share = [](std::size_t k) { return k % 2 == 0 ? 1.1F : 0.9F; };
+  for (std::size_t k = 0; k < kFadings; ++k) one[k][kCorrectedVolume] = share(k);
+  const std::vector<const Repeats*> repeats{&one};
+  const double widened = std::sqrt(16.0 / 15.0) * 2.1314 / 1.95996;
+  const FigureValues alone = school_errors(rows, repeats, {}, nothing_alike());
+  EXPECT_NEAR(error_of(alone, "volume_corrected_m3"), 50.0 * widened, 1e-4);
+  EXPECT_NEAR(error_of(alone, "sv_corrected_db"), 5.0 * std::log10(1.1 / 0.9) * widened, 1e-5);
+  EXPECT_EQ(error_of(alone, "backscatter_m2"), 0.0);
+  for (std::size_t k = 0; k < kFadings; ++k) one[k][kBackscatter] *= share(k);
+  const FigureValues together = school_errors(rows, repeats, {}, nothing_alike());
+  EXPECT_NEAR(error_of(together, "sv_corrected_db"), 0.0, 1e-5);
+  EXPECT_NEAR(error_of(together, "backscatter_m2"), 0.05 * widened, 1e-6);
+}
+
+// The echo is of the pings that know a corrected volume: one whose looks hide it still gives its echo.
+TEST(SchoolErrors, LooksThatHideTheCorrectedVolumeLeaveTheErrorOfTheEcho) {
+  std::vector<SchoolPingRow> rows(2, corrected_row());
+  rows[1].backscatter_m2 = 2.0;
+  std::vector<Repeats> seen{unchanged(rows[0]), unchanged(rows[1])};
+  for (std::size_t k = 0; k < kFadings; ++k) seen[k % 2][k][kBackscatter] *= 1.3F;
+  const std::vector<const Repeats*> repeats{&seen[0], &seen[1]};
+  const FigureValues known = school_errors(rows, repeats, {}, {});
+  for (auto& look : seen[1]) look[kCorrectedVolume] = static_cast<float>(kUnknown);
+  const FigureValues hidden = school_errors(rows, repeats, {}, {});
+  EXPECT_TRUE(std::isnan(error_of(hidden, "volume_corrected_m3")));
+  EXPECT_TRUE(std::isnan(error_of(hidden, "sv_corrected_db")));
+  EXPECT_EQ(error_of(hidden, "backscatter_m2"), error_of(known, "backscatter_m2"));
+  for (SchoolPingRow& row : rows) row.volume_corrected_m3 = kUnknown;
+  EXPECT_TRUE(std::isnan(error_of(school_errors(rows, repeats, {}, {}), "volume_corrected_m3")));
 }
 
 // No repeat moves the length, whose cell is 8 m: a step that came in none of 16 comes 0.5 times in 17.
@@ -227,8 +283,10 @@ TEST(SchoolErrors, RepeatsHoldAsMuchEchoAsTheSchool) {
   const Repeats repeats = measure_repeats(in, scene.mask, {}, 10.0, 7, kFadings, {}, params);
   ASSERT_EQ(repeats.size(), kFadings + 3);
   double mean = 0.0;
-  for (std::size_t k = 0; k < kFadings; ++k) mean += static_cast<double>(repeats[k][backscatter_at()]) / kFadings;
+  for (std::size_t k = 0; k < kFadings; ++k) mean += static_cast<double>(repeats[k][kBackscatter]) / kFadings;
   EXPECT_NEAR(mean / row.backscatter_m2, 1.0, 0.15) << "of 16 repeats that scatter by 0.15 each";
+  params.enabled = false;
+  EXPECT_TRUE(measure_repeats(in, scene.mask, {}, 10.0, 7, kFadings, {}, params).empty());
 }
 
 /// Looks at one school through fading that beams and samples share, masked by the program's own growth.
@@ -305,22 +363,24 @@ double deviation(const std::vector<double>& values) {
 // The bench tells it for all figures over random bodies; here one body, and a deviation of 40 looks that is known to 11 %.
 TEST(SchoolErrors, RepeatsOfOneLookScatterAsLooksDo) {
   Looks looks;
-  const std::vector<std::string_view> figures{"volume_m3", "backscatter_m2", "surface_m2"};
+  const std::vector<std::string_view> figures{"volume_m3", "backscatter_m2", "surface_m2", "volume_corrected_m3"};
   std::vector<std::vector<double>> seen(figures.size());
   std::vector<double> told(figures.size());
   constexpr int kLooks = 40;
   constexpr int kRepeated = 4;
-  ErrorParams params;
+  ErrorParams params = nothing_alike();
   params.enabled = true;
-  params.sound_speed_percent = params.tilt_deg = params.calibration_db = params.threshold_db = 0.0;
+  MeasureParams shape_given;  // all schools of an observation find the shape of the beam: one would not
+  shape_given.find_beam_shape = false;
   for (int look = 0; look < kLooks; ++look) {
     const MeasureInput in = looks.see(static_cast<std::uint64_t>(look) + 100);
-    const SchoolPingRow row = measure_row(in, looks.mask, {});
+    const MeasuredSchool measured = measure(in, looks.mask, shape_given);
+    const SchoolPingRow row = correct_sizes({{&measured}}, shape_given).front();
     const FigureValues values = figures_of(row);
     for (std::size_t i = 0; i < figures.size(); ++i) seen[i].push_back(error_of(values, figures[i]));
     if (look >= kRepeated) continue;
-    const Repeats repeats =
-        measure_repeats(in, looks.mask, {}, 10.0, static_cast<std::uint64_t>(look) * 1000, kFadings, {}, params);
+    const Repeats repeats = measure_repeats(in, looks.mask, {}, 10.0, static_cast<std::uint64_t>(look) * 1000, kFadings,
+                                            shape_given, params);
     const std::vector<const Repeats*> all{&repeats};
     const std::vector<SchoolPingRow> rows{row};
     const FigureValues errors = school_errors(rows, all, {}, params);

@@ -24,12 +24,6 @@ Cell descriptor(const SurveySchool& school) {
   return number_cell(school.row == nullptr ? kUnknown : school.row->*member, decimals);
 }
 
-constexpr std::size_t error_at(std::string_view figure) {
-  return static_cast<std::size_t>(std::find_if(kErrorColumns.begin(), kErrorColumns.end(),
-                                               [&](const ErrorColumn& one) { return one.figure == figure; }) -
-                                  kErrorColumns.begin());
-}
-
 /// A figure of schools.csv and its standard error, which runs tell that were asked to. error = error_at(its column)
 template <auto member, int decimals, std::size_t error>
 Cell with_error_of(const SurveySchool& school) {
@@ -63,7 +57,7 @@ std::vector<ColumnOf<SurveySchool>> made_columns() {
       {{"Depth", "m", "of its centre below the sea surface", true}, with_error_of<&R::depth_m, 1, error_at("depth_m")>},
       {{"Volume", "m\u00B3", "as the beams see it", true}, with_error_of<&R::volume_m3, 0, error_at("volume_m3")>},
       {{"Volume corrected", "m\u00B3", "with beam width and pulse length removed", true},
-       [](const S& s) { return number_cell(figure<&R::volume_corrected_m3>(s), 0); }},
+       with_error_of<&R::volume_corrected_m3, 0, error_at("volume_corrected_m3")>},
       {{"Length", "m", "", true}, with_error_of<&R::length_m, 1, error_at("length_m")>},
       {{"Width", "m", "", true}, with_error_of<&R::width_m, 1, error_at("width_m")>},
       {{"Height", "m", "", true}, with_error_of<&R::height_m, 1, error_at("height_m")>},
