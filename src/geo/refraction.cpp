@@ -29,9 +29,10 @@ double elevation_of(std::size_t row) { return elevation_at(static_cast<double>(r
 constexpr int kRounds = 12;
 constexpr double kNear_m = 1e-3;
 
-/// The last whole step from which an index is reached: beyond the table its last step goes on.
+/// The last whole step from which an index is reached: beyond the table its last step goes on. An index that is no number is
+/// none of the table either: the first.
 std::size_t whole(double index, std::size_t nodes) {
-  return static_cast<std::size_t>(std::clamp(index, 0.0, static_cast<double>(nodes - 2)));
+  return index > 0.0 ? static_cast<std::size_t>(std::min(index, static_cast<double>(nodes - 2))) : 0;
 }
 
 }  // namespace

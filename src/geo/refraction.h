@@ -22,7 +22,8 @@ class Refraction {
   /// farthest_m          range up to which rays are followed
   Refraction(const SoundProfile& profile, double transducer_depth_m, double sound_speed_mps, double farthest_m);
 
-  /// Of a place on the straight path, in a level frame with its origin at the transducer, the place on the ray.
+  /// Of a place on the straight path, in a level frame with its origin at the transducer, the place on the ray; of one that
+  /// is not known, none.
   [[nodiscard]] Point<Sonar> bent(const Point<Sonar>& straight) const;
   /// The other way. Where rays cross, the ray whose elevation is nearest to that of the straight path; where none comes, the
   /// one that passes nearest above or below.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -60,6 +61,15 @@ TEST(Refraction, StraightensWhereRaysCross) {
       EXPECT_NEAR(norm(refraction.bent(straight) - there), 0.0, 0.01) << elevation_deg << ' ' << range_m;
       EXPECT_NEAR(std::remainder(std::atan2(straight.y, straight.x) - 1.0, 2 * std::numbers::pi), 0.0, 1e-9);
     }
+  }
+}
+
+// As where a ping's roll is not known: what is looked up must not lie outside the table.
+TEST(Refraction, OfNoPlaceNoneIsTold) {
+  const Refraction refraction(kSummer, 7.0, 1480.0, 500.0);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const Point<Sonar>& place : {Point<Sonar>{nan, 1.0, 1.0}, {100.0, 1.0, nan}, {nan, nan, nan}}) {
+    EXPECT_TRUE(std::isnan(refraction.bent(place).z));
   }
 }
 

@@ -5,12 +5,14 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "base/units.h"
 #include "geo/geodesic.h"
+#include "geo/refraction.h"
 #include "io/product_example.h"
 #include "model/outline.h"
 
@@ -152,12 +154,18 @@ TEST(MapOutlines, OfFixedBeamsTurnWithTheShip) {
 TEST(MapOutlines, AnUnknownAttitudeOfFixedBeamsGivesNone) {
   ObservationProduct p = example::empty("obs-0001", 1);
   example::add_school(p, 1, 0, 0, example::block(0, 1, 2, 20, 10));
-  const ObservationOutlines o = map_outlines(p, [](const PingNavigation& n) {
-    Placement placement = n.placement();
-    placement.roll_rad = std::nan("");
-    return placement;
-  });
-  EXPECT_TRUE(o.schools[0].area.rings.empty());
+  const auto outlined = [&](double roll_rad, double depth_of_rays_m) {
+    const auto rays = std::make_shared<const Refraction>(SoundProfile{{0.0, 1500.0}}, depth_of_rays_m, 1500.0, 120.0);
+    return map_outlines(p, [&](const PingNavigation& n) {
+      Placement placement = n.placement();
+      placement.roll_rad = roll_rad;
+      placement.rays = rays;
+      return placement;
+    });
+  };
+  EXPECT_FALSE(outlined(0.1, 7.0).schools[0].area.rings.empty());
+  EXPECT_TRUE(outlined(std::nan(""), 7.0).schools[0].area.rings.empty());
+  EXPECT_TRUE(outlined(0.1, std::nan("")).schools[0].area.rings.empty()) << "rays from nowhere";
 }
 
 TEST(MapOutlines, PingsWithoutPlaceAreLeftOut) {

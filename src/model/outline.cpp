@@ -93,9 +93,7 @@ std::vector<Interval> joined(std::vector<Interval> intervals) {
 
 bool turns(const Placement& placement) { return placement.roll_rad != 0.0 || placement.pitch_rad != 0.0; }
 /// A damaged product may say anything.
-bool known(const Placement& placement) {
-  return std::isfinite(placement.roll_rad) && std::isfinite(placement.pitch_rad);
-}
+bool known(const Placement& placement) { return std::isfinite(norm(levelled(Point<Sonar>{1.0, 0.0, 1.0}, placement))); }
 
 /// Angle number i of `steps` equal steps.
 double angle_at(const AngleBounds& bounds, int i, int steps) {

@@ -61,7 +61,8 @@ VoxelsAlike voxels_alike_each_way(const BeamGrid& grid, double sample_m, double 
   for (int b = 0; b < beams; ++b) {
     alike.beams += std::pow(amplitude_correlation(grid, row, row / beams * beams + b), 2);
   }
-  for (int k = 1; k * sample_m < pulse_m; ++k) alike.samples += 2.0 * std::pow(1.0 - k * sample_m / pulse_m, 2);
+  for (int k = 1; k < kLongestPulse && k * sample_m < pulse_m; ++k)
+    alike.samples += 2.0 * std::pow(1.0 - k * sample_m / pulse_m, 2);
   return alike;
 }
 

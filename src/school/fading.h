@@ -7,6 +7,9 @@
 
 namespace sonar {
 
+/// Samples of a pulse, the most that fading is worked out for: files may state any length.
+inline constexpr int kLongestPulse = 10'000;
+
 /// Between an angle of a rising list and its neighbour; 1 where it is alone.
 [[nodiscard]] double spacing_deg(const std::vector<double>& angles, int at);
 

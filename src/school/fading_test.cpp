@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -52,6 +53,18 @@ TEST(Fading, IsCountedBySquaresOfCorrelations) {
               1e-3);
   for (int f = 0; f < 20; ++f) grid.frequency_hz[static_cast<std::size_t>(f)] += 2000.0 * f;
   EXPECT_EQ(voxels_alike_each_way(grid, 0.5, 2.0, 262).fans, 1.0);
+}
+
+// A damaged file may say that a pulse lasts for years, or that samples take no time.
+TEST(Fading, OfAbsurdPulsesIsTold) {
+  const BeamGrid grid = test::grid();
+  const double longest = voxels_alike_each_way(grid, 0.5, 0.5 * kLongestPulse, 262).samples;
+  EXPECT_NEAR(longest, 2.0 * kLongestPulse / 3.0, 1.0) << "as an integral";
+  for (const double pulse_m : {1e30, std::numeric_limits<double>::infinity()}) {
+    for (const double sample_m : {0.5, 1e-300, 0.0}) {
+      EXPECT_NEAR(voxels_alike_each_way(grid, sample_m, pulse_m, 262).samples, 2.0 * kLongestPulse, 2.0);
+    }
+  }
 }
 
 // Echo of a rectangular pulse is a running sum of what the targets send back: sums over 48 samples of it scatter by the

@@ -57,7 +57,9 @@ Hash128 key_of(const Engine& engine, std::int64_t ping_index, const std::vector<
   for (std::size_t i = 0; i < schools.size(); ++i) {
     const InPingRef& one = schools[i];
     const PingMask& mask = one.in_ping->mask;
-    const bool lets_through = !is_fish(one) && shares_beams(schools, i);
+    // Where echo is corrected, others hear their water in beams that they hold nothing of.
+    const bool may_matter = engine.recipe().measure.extinction.correct ? schools.size() > 1 : shares_beams(schools, i);
+    const bool lets_through = !is_fish(one) && may_matter;
     hasher.add(std::as_bytes(std::span(&lets_through, 1)));
     hasher.add(std::as_bytes(std::span(&one.school->decided.school_id, 1)));
     hasher.add(std::as_bytes(std::span(&one.in_ping->threshold_db, 1)));

@@ -95,7 +95,9 @@ FadingField::Weights FadingField::weights(int count, const Correlation& correlat
 
 FadingField::FadingField(const BeamGrid& grid, const IndexBox& box, double sample_m, double pulse_m)
     : size_{box.fans(), box.beams(), box.samples()} {
-  if (sample_m > 0.0 && pulse_m > sample_m) pulse_samples_ = static_cast<int>(std::lround(pulse_m / sample_m));
+  if (sample_m > 0.0 && pulse_m > sample_m) {
+    pulse_samples_ = static_cast<int>(std::lround(std::min(pulse_m / sample_m, 1.0 * kLongestPulse)));
+  }
   const auto row = [&](int fan, int beam) { return (box.first_fan + fan) * grid.beams() + box.first_beam + beam; };
   for (int fan = 0; fan < size_.fans; ++fan) {
     of_beams_.push_back(

@@ -56,5 +56,11 @@ TEST(FadingField, FansOfOwnFrequencyFadeByThemselves) {
   EXPECT_NE(field.draw(3).all()[7], field.draw(4).all()[7]);
 }
 
+// Of one that lasts for years neighbouring samples hear the same.
+TEST(FadingField, OfAnAbsurdPulseIsDrawn) {
+  const Array3<std::int16_t> counts = FadingField(test::grid(), kBox, 0.5, 1e30).draw(1);
+  for (int s = 1; s < kBox.samples(); ++s) EXPECT_NEAR(counts(0, 0, s), counts(0, 0, s - 1), counts_from_db(3.0)) << s;
+}
+
 }  // namespace
 }  // namespace sonar

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/work.h"
+#include "pipeline/journal/state_product.h"
 #include "session/slices/test_slices.h"
 #include "session/tools/measure_tool.h"
 
@@ -111,6 +113,39 @@ TEST_F(MeasureCorrected, ARejectedSchoolTakesNothingFromTheOneBehindIt) {
   app_.ask("edit.undo");
   app_.settle();
   EXPECT_EQ(row_of(1).extinction_loss_db, far.extinction_loss_db);
+}
+
+// A school that holds no beam of the rejected one hears its water there, and beams that are given nothing back are other water.
+// What was kept of the ping is of no use then.
+TEST_F(MeasureCorrected, ARejectedSchoolChangesTheWaterOfOneBesideIt) {
+  const auto& shown = *app_.document().shown();
+  const int beams = shown.sector().beams();
+  const std::vector<sonar::Run> runs = app_.document().state().schools.at(0)->masks.pings.front().mask.runs;
+  const auto [low, high] = std::ranges::minmax(runs, {}, [&](const sonar::Run& run) { return run.row % beams; });
+  const int beam = high.row % beams + 1 < beams ? high.row % beams + 1 : low.row % beams - 1;
+  ASSERT_GE(beam, 0) << "the school fills its fans";
+  BrushCommand beside;
+  for (const sonar::Run& run : runs) {
+    const int row = run.row - run.row % beams + beam;
+    beside.runs.push_back({shown.grid().channel[static_cast<std::size_t>(row)], run.first_sample, run.count});
+  }
+  app_.document().act(app_.document().ping(), beside);
+  app_.settle();
+  ASSERT_EQ(app_.document().state().schools.size(), 2U);
+  const auto total_of = [](const ObservationProduct& product, std::int64_t school) {
+    const auto found = std::ranges::find(product.school_pings, school, &SchoolPingRow::school_id);
+    return found == product.school_pings.end() ? kUnknown : found->backscatter_total_m2;
+  };
+  const std::int64_t school = app_.document().state().schools.at(1)->number;
+  const double before_m2 = total_of(*app_.document().product(0), school);
+  const SchoolKey key = key_of(app_.document().state().schools.at(0)->masks, shown.context());
+  app_.document().act(DecideCommand{{{key, "rejected", {}, {}}}, ""});
+  app_.settle();
+  Work work;
+  const auto anew = state_product(app_.document().shown()->engine(), app_.document().state(), {}, work);
+  ASSERT_TRUE(anew);
+  ASSERT_NE(total_of(*anew, school), before_m2) << "else this tells nothing";
+  EXPECT_EQ(total_of(*app_.document().product(0), school), total_of(*anew, school));
 }
 
 }  // namespace
