@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/units.h"
+#include "geo/frames.h"
 
 namespace sonar {
 namespace {
@@ -45,7 +46,8 @@ double amplitude_correlation(const BeamGrid& grid, int row, int other) {
   };
   const auto i = static_cast<std::size_t>(row);
   const double level = std::cos(rad_from_deg(grid.elevation_deg[static_cast<std::size_t>(fans[0])]));
-  const double sideways = level * apart(grid.azimuth_deg, row % grid.beams(), other % grid.beams());
+  // A ring's first beam lies beside its last.
+  const double sideways = level * wrap_180(apart(grid.azimuth_deg, row % grid.beams(), other % grid.beams()));
   const double upright = apart(grid.elevation_deg, fans[0], fans[1]);
   const double by_fans = fans[0] == fans[1] ? 1.0 : beams_correlation(upright, grid.vertical_width_deg[i]);
   const double by_beams = sideways == 0.0 ? 1.0 : beams_correlation(sideways, grid.horizontal_width_deg[i]);

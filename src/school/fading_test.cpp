@@ -43,6 +43,21 @@ TEST(Fading, BeamsShareWhatTheirPatternsDo) {
   EXPECT_EQ(amplitude_correlation(grid, row, row), 1.0);
 }
 
+// An omni sonar's beams go all the way round, so each has as many neighbours as any other.
+TEST(Fading, ARingOfBeamsHasNoEnds) {
+  BeamGrid grid = test::grid();
+  const int beams = grid.beams();
+  for (int b = 0; b < beams; ++b) grid.azimuth_deg[static_cast<std::size_t>(b)] = 360.0 * b / beams;
+  const double width_deg = 360.0 / beams;
+  grid.horizontal_width_deg.assign(grid.horizontal_width_deg.size(), width_deg);
+  const int row = 10 * beams;
+  EXPECT_NEAR(amplitude_correlation(grid, row, row + beams - 1), amplitude_correlation(grid, row, row + 1), 1e-12);
+  for (int b = 0; b < beams; ++b) {
+    EXPECT_NEAR(voxels_alike_each_way(grid, 0.5, 2.0, row + b).beams, voxels_alike_each_way(grid, 0.5, 2.0, row).beams,
+                1e-12);
+  }
+}
+
 // By hand for a pulse of four samples: 1 + 2 (9/16 + 4/16 + 1/16) = 2.75. Beams far closer than they are wide: as an integral.
 TEST(Fading, IsCountedBySquaresOfCorrelations) {
   BeamGrid grid = test::grid();
