@@ -17,6 +17,7 @@
 #include "io/depth_raster.h"
 #include "io/product_example.h"
 #include "publish/reports/sample_looks.h"
+#include "view/slices/slice_picture.h"
 
 namespace sonar {
 namespace {
@@ -275,6 +276,36 @@ TEST_F(Pictures, VolumesSayWhatBearingsStartFrom) {
   EXPECT_THAT(texts(*picture(PictureKind::volume)), testing::Contains("masks of schools; true bearings"));
   options_.volume.context = false;
   EXPECT_THAT(texts(*picture(PictureKind::volume)), testing::Contains("masks of schools"));
+}
+
+// Where tables turn or bend places, slices and volumes say that they do not; elsewhere nothing is said.
+TEST_F(Pictures, SlicesAndVolumesSayWhereTheyAreStraightAndTablesAreNot) {
+  ObservationProduct product = example::empty("obs-0001", 5);
+  example::add_school(product, 1, 0, 3, example::block(1, 1, 2, 20, 8, 200));
+  options_.size = {900, 400};  // no title is cut short
+  const auto said = [&](const Recipe& recipe, double pitch_deg) {
+    for (PingNavigation& ping : product.pings) ping.pitch_deg = pitch_deg;
+    source_ = PictureSource::of(nullptr, {product}, recipe);
+    std::vector<std::string> words;
+    for (const PictureKind kind : {PictureKind::slice_side, PictureKind::volume}) {
+      for (const std::string& text : texts(*picture(kind))) {
+        if (text.find(kStraightAndLevel) != std::string::npos) words.push_back(text);
+      }
+    }
+    return words;
+  };
+  const std::vector<std::string> told{"depth, straight and level beams (m)",
+                                      "masks of schools; true bearings; straight and level beams"};
+  Recipe recipe;
+  EXPECT_THAT(said(recipe, 5.0), testing::IsEmpty()) << "stabilised";
+  recipe.navigation.beams_stabilised = false;
+  EXPECT_THAT(said(recipe, 0.0), testing::IsEmpty());
+  EXPECT_EQ(said(recipe, 5.0), told);
+  recipe.navigation.beams_stabilised = true;
+  recipe.survey.sound_speed_profile = {{0.0, 1504.0}, {100.0, 1304.0}};
+  EXPECT_THAT(said(recipe, 5.0), testing::IsEmpty()) << "a profile that bends nothing";
+  recipe.survey.bend_rays = true;
+  EXPECT_EQ(said(recipe, 0.0), told);
 }
 
 // What a window exports is read in its units; programs leave SI.

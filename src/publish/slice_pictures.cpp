@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "pipeline/stages/placements.h"
 #include "pipeline/stages/weak_samples.h"
 #include "publish/movies/between_pings.h"
 #include "publish/reports/sample_looks.h"
@@ -132,6 +133,7 @@ SlicePing titled_ping(const DrawnObservation& observation, const DrawnPing& ping
   titled.transducer_depth_m = ping.navigation.transducer_depth_m;
   titled.frequency_hz = observation.frequency_hz();
   titled.rays = observation.rays();
+  titled.moved = moves_places(observation.recipe(), ping.navigation);
   return titled;
 }
 

@@ -27,6 +27,11 @@ Placement placement_under(const Recipe& recipe, const PingNavigation& ping,
   return placement;
 }
 
+bool moves_places(const Recipe& recipe, const PingNavigation& ping) {
+  const Placement placement = placement_under(recipe, ping, nullptr);
+  return recipe.survey.bend_rays || placement.roll_rad != 0.0 || placement.pitch_rad != 0.0;
+}
+
 ProductPlacements::ProductPlacements(const ObservationProduct& product) {
   if (auto recipe = recipe_from_text(product.recipe_json)) recipe_ = std::move(*recipe);
   if (!product.grid || !recipe_.survey.bend_rays) return;

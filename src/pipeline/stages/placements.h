@@ -24,8 +24,12 @@ namespace sonar {
 [[nodiscard]] Placement placement_under(const Recipe& recipe, const PingNavigation& ping,
                                         const std::shared_ptr<const Refraction>& rays);
 
-/// The same of a product's pings, under the recipe that it was made with: what is written of its masks lies where its
-/// tables have them.
+/// Whether a ping's places lie elsewhere in tables than along straight beams of a level ship, as slices and volumes draw
+/// them.
+[[nodiscard]] bool moves_places(const Recipe& recipe, const PingNavigation& ping);
+
+/// How levelled() takes the places of a product's pings, under the recipe that it was made with: what is written of its
+/// masks lies where its tables have them.
 class ProductPlacements {
  public:
   /// A recipe that cannot be read is the default.

@@ -40,7 +40,8 @@ Result<FrameDescription> observation_map_frame(const DrawnObservation& observati
   const auto ping = chosen_ping(observation, options);
   if (!ping) return pass_on(ping);
   const ObservationProduct product = with_chosen_schools(observation.product(), options);
-  auto base = observation_map_base(product, options.size, theme_of(options), {}, true, options.display.refused_echoes);
+  auto base = observation_map_base(product, options.size, theme_of(options), {}, true, options.display.refused_echoes,
+                                   ProductPlacements(product));
   if (!base) return pass_on(base);
   base->searched = observation.has_product();
   base->left_out = static_cast<std::size_t>(school_count(observation.product()) - school_count(product));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/product_example.h"
+#include "pipeline/recipe/recipe.h"
 
 namespace sonar {
 namespace {
@@ -91,6 +92,38 @@ TEST(MapPictures, RowsOfOneSchoolAreOneWhereWhatTheyContinueIsNotDrawn) {
   PictureOptions options;
   options.schools = {1, 5};
   EXPECT_TRUE(says(*survey_map_frame(source->observations(), options, work), "2 observations, 1 school"));
+}
+
+/// What the map of one school shows of it.
+std::vector<Image> images_under(const Recipe& recipe, double roll_deg) {
+  std::vector<ObservationProduct> products{example::empty("obs-0001", 4)};
+  example::add_school(products[0], 1, 1, 1, example::block(0, 1, 2, 40, 10));
+  products[0].recipe_json = recipe_text(recipe);
+  for (PingNavigation& ping : products[0].pings) ping.roll_deg = roll_deg;
+  const auto source = PictureSource::of(nullptr, std::move(products), recipe);
+  const auto map = observation_map_frame(source->observations()[0], PictureOptions{});
+  EXPECT_TRUE(map);
+  std::vector<Image> images;
+  for (const auto& item : map->items) {
+    if (const auto* image = std::get_if<ImageItem>(&item)) images.push_back(*image->image);
+  }
+  return images;
+}
+
+// How far masks move is view's to say (TurnedMasks); whether they do is the product's own recipe's.
+TEST(MapPictures, AnObservationsMapFollowsTheRecipeOfItsProduct) {
+  Recipe recipe;
+  const auto plain = images_under(recipe, 0.0);
+  ASSERT_FALSE(plain.empty());
+  EXPECT_EQ(images_under(recipe, 20.0), plain) << "stabilised";
+  recipe.survey.sound_speed_profile = {{0.0, 1504.0}, {100.0, 1304.0}};
+  EXPECT_EQ(images_under(recipe, 0.0), plain) << "a profile that bends nothing";
+  recipe.survey.bend_rays = true;
+  EXPECT_NE(images_under(recipe, 0.0), plain);
+  recipe = {};
+  recipe.navigation.beams_stabilised = false;
+  EXPECT_EQ(images_under(recipe, 0.0), plain) << "fixed to a ship that lies still";
+  EXPECT_NE(images_under(recipe, 20.0), plain);
 }
 
 }  // namespace

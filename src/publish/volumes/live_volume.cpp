@@ -210,6 +210,7 @@ VolumeFigure LiveVolume::State::figure_of(const LiveVolumeInput& input) {
   figure.names = input.names;
   figure.legend = input.legend;
   figure.navigation = input.navigation;
+  figure.moved = input.moved;
   figure.title = input.title;
   figure.title_line = input.title_line;
   if (input.next) figure.mark = between_words(input);

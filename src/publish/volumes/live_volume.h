@@ -34,6 +34,7 @@ struct LiveVolumeInput {
   double towards_next = 0.0;  ///< how far it has come, 0 <= x < 1
   std::shared_ptr<const Sector> sector;
   PingNavigation navigation;
+  bool moved = false;      ///< as SlicePing has it
   std::string title;       ///< of the observation
   std::string title_line;  ///< of the picture
   std::vector<MaskLayer> masks;

@@ -14,6 +14,7 @@
 #include "publish/reports/sample_looks.h"
 #include "publish/volumes/volume_legend.h"
 #include "view/colour_bar.h"
+#include "view/slices/slice_picture.h"
 #include "view/volume/distance_bar.h"
 #include "view/volume/earth_pose.h"
 
@@ -65,6 +66,7 @@ std::string view_line(const VolumeFigure& figure, const PictureOptions& options,
   if (options.volume.context) {
     line += std::isnan(figure.navigation.heading_deg) ? "; bearings from the bow" : "; true bearings";
   }
+  if (figure.moved) line += fmt::format("; {}", kStraightAndLevel);
   if (options.volume.earth_fixed) {
     line += on_earth(figure.navigation) ? "; earth-fixed" : "; not earth-fixed: no position or heading";
   }

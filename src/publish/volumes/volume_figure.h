@@ -43,6 +43,7 @@ struct VolumeFigure {
   bool outlined = false;                                   ///< masks are lines over the data, not a tint
   bool searched = true;                                    ///< schools were looked for
   std::vector<RefusedMark> refused{};                      ///< marked, whatever stands before them
+  bool moved = false;                                      ///< as SlicePing has it
   std::string mark{};                                      ///< what nobody may miss, over the volume; empty = nothing
 
   [[nodiscard]] const Sector& sector() const { return volume->sector; }

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "pipeline/stages/placements.h"
 #include "publish/maps/chart_seabed.h"
 #include "publish/movies/between_pings.h"
 #include "publish/renderer_choice.h"
@@ -103,6 +104,7 @@ Result<VolumeFigure> prepare(DrawnObservation& observation, const PictureOptions
   if (auto placed = place_slices(out, *sector, *ping, options); !placed) return pass_on(placed);
   out.refused = drawn_refused(observation, *sector, ping->ping_index, options);
   out.navigation = ping->navigation;
+  out.moved = moves_places(observation.recipe(), out.navigation);
   out.currents = volume_currents(observation.recipe(), *sector, out.navigation, options.volume, options.units);
   take_trails(out, observation, *sector, ping->ping_index, options, place);
   out.samples = ping->staged != nullptr;

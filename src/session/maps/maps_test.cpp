@@ -75,6 +75,46 @@ TEST(ObservationMapModel, OnlyPingsThatAnActChangedAreSetAndTheMapIsThatOfAFresh
   EXPECT_LT(once, fresh.places()->cells_touched);
 }
 
+// The cursor's cross lies where the read-out has the voxel: on every voxel of a school it lies in the school, also where
+// the recipe bends sound (by 2 m/s each metre, as no water does).
+TEST(ObservationMapModel, TheCursorOnASchoolLiesInTheSchoolWhereSoundBends) {
+  TestMaps maps;
+  Recipe recipe = maps.workspace.document.recipe();
+  recipe.survey.sound_speed_profile = {{0.0, 1504.0}, {100.0, 1304.0}};
+  recipe.survey.bend_rays = true;
+  maps.workspace.document.use_recipe(recipe);
+  maps.settle();
+  const auto at = maps.bright();
+  maps.grow(at);
+  maps.workspace.document.look_at(at.ping);
+  maps.see(maps.map);
+  const auto& schools = maps.workspace.document.state().schools;
+  ASSERT_EQ(schools.size(), 1U);
+  const auto places = maps.map.places();
+  ASSERT_TRUE(places);
+  const auto cells = lit(*places);
+  int voxels = 0;
+  const int beams = maps.workspace.document.shown()->sector().beams();
+  for (const sonar::Run& run : schools[0]->masks.pings.at(0).mask.runs) {
+    for (const int sample : {run.first_sample, run.end() - 1}) {
+      maps.workspace.cursor.set(Voxel{run.row / beams, run.row % beams, sample});
+      const auto overlays = maps.map.overlays();
+      ASSERT_EQ(overlays.size(), 1U);
+      const auto cross = overlays[0].cross;
+      ASSERT_TRUE(cross);
+      // The map's plane is even to a part of a cell.
+      EXPECT_TRUE(std::any_of(cells.begin(), cells.end(),
+                              [&](const PixelPoint& cell) {
+                                return std::max(std::abs(cell.x - cross->x), std::abs(cell.y - cross->y)) <=
+                                       0.75 * places->cell_px;
+                              }))
+          << run.row << " " << sample;
+      ++voxels;
+    }
+  }
+  EXPECT_GT(voxels, 3);
+}
+
 TEST(MosaicFollower, SetsNoPingWhoseMasksAreTheSame) {
   TestMaps maps;
   maps.propagate(maps.bright(), 2);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pipeline/stages/observe.h"
+#include "pipeline/stages/placements.h"
 #include "session/looks/screen_theme.h"
 #include "session/open/survey_schools.h"
 
@@ -21,7 +22,10 @@ Result<void> ObservationMapPainter::lay_out(const ObservationMapWish& wish, Pixe
   if (other) head_ = observation_head(wish.observation->files());
   base_.reset();
   observation_ = wish.observation;
-  auto base = observation_map_base(head_, size, dock_theme(size, wish.look), wish.zoom);
+  const auto placed = [recipe = observation_->recipe(), rays = observation_->rays()](const PingNavigation& ping) {
+    return placement_under(recipe, ping, rays);
+  };
+  auto base = observation_map_base(head_, size, dock_theme(size, wish.look), wish.zoom, false, false, placed);
   if (!base) return pass_on(base);
   base_ = std::move(*base);
   look_ = wish.look;

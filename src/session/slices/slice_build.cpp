@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "base/units.h"
+#include "pipeline/stages/placements.h"
 #include "pipeline/stages/weak_samples.h"
 #include "publish/reports/sample_looks.h"
 #include "session/looks/screen_theme.h"
@@ -123,6 +124,7 @@ SlicePing slice_ping(const OpenObservation& observation, std::int64_t ping_index
   ping.transducer_depth_m = navigation.transducer_depth_m;
   ping.frequency_hz = observation.grid().frequency_hz;
   ping.rays = observation.rays();
+  ping.moved = moves_places(observation.recipe(), navigation);
   return ping;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "pipeline/stages/placements.h"
 #include "publish/movies/between_pings.h"
 #include "publish/volumes/volume_figure.h"
 #include "session/looks/screen_theme.h"
@@ -87,6 +88,7 @@ std::optional<LiveVolumeInput> volume_input(const Workspace& workspace, const st
   input.staged = document.staged();
   input.sector = std::shared_ptr<const Sector>(shown, &shown->sector());
   input.navigation = shown->files().navigation[static_cast<std::size_t>(input.staged->ping_index)];
+  input.moved = moves_places(shown->recipe(), input.navigation);
   input.title = shown->title();
   input.title_line = fmt::format("{}   ping {}", input.title, input.staged->ping_index);
   input.options.display = workspace.display.values();

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "base/check.h"
 #include "base/units.h"
@@ -29,11 +30,17 @@ void take_larger(MaskMosaic::Cell* to, const MaskMosaic::Cell* from, int count) 
   for (; i < count; ++i) to[i] = std::max(to[i], from[i]);
 }
 
+/// Whether levelled() leaves every place where it is.
+bool straight_and_level(const Placement& placement) {
+  return placement.roll_rad == 0.0 && placement.pitch_rad == 0.0 && !placement.rays;
+}
+
 }  // namespace
 
-MaskMosaic::MaskMosaic(const MapFrame& map, std::size_t pings, double cell_px)
+MaskMosaic::MaskMosaic(const MapFrame& map, std::size_t pings, double cell_px, PlacementOf placed)
     : map_(map),
       cell_px_(cell_px),
+      placed_(std::move(placed)),
       width_(std::max(1, static_cast<int>(std::ceil(map.place.width / cell_px)))),
       height_(std::max(1, static_cast<int>(std::ceil(map.place.height / cell_px)))),
       top_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0) {
@@ -64,12 +71,14 @@ MaskMosaic::Patch MaskMosaic::patch(const Sector& sector, const PingNavigation& 
   const double y = (map_.place.y + 0.5 * cell_px_ - ship.y) / cell_px_;
   raster.origin_u = x * raster.x_step_u + y * raster.y_step_u;
   raster.origin_v = x * raster.x_step_v + y * raster.y_step_v;
+  const Placement placement = placed_(navigation);
   std::vector<MaskPatch> parts;
   Box box;
   for (const MosaicMask& m : masks) {
     if (m.mask == nullptr || m.mask->empty()) continue;
     const double bin_m = std::max(0.5 * metres, sector.range().spacing_m);
-    parts.push_back(patch_of(plan_from_above(sector, *m.mask, bin_m), raster));
+    parts.push_back(straight_and_level(placement) ? patch_of(plan_from_above(sector, *m.mask, bin_m), raster)
+                                                  : patch_from_above(sector, *m.mask, placement, raster));
     const MaskPatch& p = parts.back();
     if (p.empty()) continue;
     include(box, Patch{p.first_x, p.first_y, p.width, p.height, {}});

@@ -8,6 +8,7 @@
 
 #include "model/mask.h"
 #include "model/navigation.h"
+#include "model/outline.h"
 #include "view/maps/map_frame.h"
 #include "view/theme.h"
 #include "view/volume/mask_plan.h"
@@ -38,7 +39,9 @@ class MaskMosaic {
   /// map      where the raster lies; it covers `map.place`
   /// pings    of the observation
   /// cell_px  size of a cell
-  MaskMosaic(const MapFrame& map, std::size_t pings, double cell_px = 1.0);
+  /// placed   how the pings lie
+  MaskMosaic(const MapFrame& map, std::size_t pings, double cell_px = 1.0,
+             PlacementOf placed = &PingNavigation::placement);
 
   /// Replaces what a ping shows; no masks = nothing. A ping without position or heading shows nothing.
   void set(std::size_t ping, const Sector& sector, const PingNavigation& navigation, std::span<const MosaicMask> masks);
@@ -81,6 +84,7 @@ class MaskMosaic {
 
   MapFrame map_;
   double cell_px_;
+  PlacementOf placed_;
   int width_ = 0;
   int height_ = 0;
   std::vector<std::vector<Patch>> levels_;  ///< [0] pings, then sixteen of the level below to a node

@@ -27,7 +27,7 @@ constexpr double kMostCells = 1000.0;  ///< of the mosaic along a side
 constexpr double kShip_m = 78.0;       ///< a large research vessel
 constexpr double kLeastShips = 8.0;    ///< lengths that the map shows at least: the ship never fills it
 
-bool placed(const PingNavigation& n) { return n.has_position() && std::isfinite(n.heading_deg); }
+bool has_place(const PingNavigation& n) { return n.has_position() && std::isfinite(n.heading_deg); }
 
 /// A ring about the transducer (x east, y north, m) as places on the map, m.
 std::vector<PlanePoint> on_map(const MapProjection& projection, const Geographic& origin, const Ring& ring) {
@@ -81,7 +81,8 @@ void add_current(FrameDescription& frame, const ObservationMapBase& base, const 
 }  // namespace
 
 Result<ObservationMapBase> observation_map_base(const ObservationProduct& product, PixelSize size, const Theme& theme,
-                                                const MapZoom& zoom, bool key, bool refused) {
+                                                const MapZoom& zoom, bool key, bool refused,
+                                                const PlacementOf& placed) {
   if (size.width < 24.0 * theme.text_px || size.height < 15.0 * theme.text_px) {
     return fail(ErrorCode::bad_parameter,
                 fmt::format("a picture of {} x {} pixels is too small for a map", size.width, size.height));
@@ -94,8 +95,8 @@ Result<ObservationMapBase> observation_map_base(const ObservationProduct& produc
     const PingNavigation& n = product.pings[i];
     if (!n.has_position()) continue;
     shown.push_back(n.transducer);
-    if (!sector || !placed(n)) continue;
-    rings[i] = footprint(*product.grid, *sector, n.placement());
+    if (!sector || !has_place(n)) continue;
+    rings[i] = footprint(*product.grid, *sector, placed(n));
     for (const PlanePoint& p : rings[i]) shown.push_back(to_geographic(Point<Enu>{p.x, p.y, 0.0}, n.transducer));
   }
   const auto extent = extent_of(shown);
@@ -121,6 +122,7 @@ Result<ObservationMapBase> observation_map_base(const ObservationProduct& produc
       {},
       std::move(entries),
       {em, size.height - 0.5 * em - key_px, key_width, key_px}};
+  base.placed = placed;
   base.title = observation_title(product);
   base.track = track_item(base.map, product.pings, {theme.track, 1.6 * theme.line_px, {}});
   const auto first = std::find_if(product.pings.begin(), product.pings.end(),
@@ -140,7 +142,7 @@ Result<ObservationMapBase> observation_map_base(const ObservationProduct& produc
 
 MaskMosaic empty_mosaic(const ObservationMapBase& base, std::size_t pings) {
   const double longer = std::max(base.map.place.width, base.map.place.height);
-  return {base.map, pings, std::max(1.0, std::ceil(longer / kMostCells))};
+  return {base.map, pings, std::max(1.0, std::ceil(longer / kMostCells)), base.placed};
 }
 
 MaskMosaic mask_mosaic(const ObservationMapBase& base, const ObservationProduct& product) {

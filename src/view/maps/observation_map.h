@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "model/outline.h"
 #include "model/product.h"
 #include "view/frame_description.h"
 #include "view/key_rows.h"
@@ -34,14 +35,17 @@ struct ObservationMapBase {
   bool searched = true;               ///< schools were looked for; else the title says that they were not
   std::size_t left_out = 0;           ///< schools that there are and that the map does not show
   std::optional<PixelPoint> start{};  ///< of the observation
+  PlacementOf placed = &PingNavigation::placement;
 };
 
 /// key     with room for a key of lines and colours below the map; refused = of refused echoes too
 /// pings   of the observation; product may lack schools and masks
+/// placed  how they lie: footprints turn as footprint() has it, masks turn and bend as mask_rings() has them
 /// errors  not_found: no ping has a position; bad_parameter: a picture too small for a map
 [[nodiscard]] Result<ObservationMapBase> observation_map_base(const ObservationProduct& product, PixelSize size,
                                                               const Theme& theme, const MapZoom& zoom = {},
-                                                              bool key = false, bool refused = false);
+                                                              bool key = false, bool refused = false,
+                                                              const PlacementOf& placed = &PingNavigation::placement);
 
 /// Without a mask: for whoever sets pings one by one.
 [[nodiscard]] MaskMosaic empty_mosaic(const ObservationMapBase& base, std::size_t pings);

@@ -226,9 +226,10 @@ std::string bearings_text(const SlicePing& ping, const SliceStyle& style) {
 
 std::string plane_text(const PlaneSlice& plane, const SlicePing& ping, const SliceStyle& style, const Unit& unit) {
   const auto length = [&unit](double m) { return fmt::format("{} {}", tick_text(unit.of(m), 1), unit.name); };
-  const double depth = plane.origin.z + ping.transducer_depth_m;
+  std::string depth = "depth " + length(plane.origin.z + ping.transducer_depth_m);
+  if (ping.moved) depth += fmt::format(", {}", kStraightAndLevel);
   if (plane.kind == PlaneSlice::Kind::horizontal)
-    return fmt::format("Horizontal plane, depth {}{}", length(depth), bearings_text(ping, style));
+    return fmt::format("Horizontal plane, {}{}", depth, bearings_text(ping, style));
   if (plane.kind == PlaneSlice::Kind::vertical) {
     const double azimuth = std::atan2(plane.right.y, plane.right.x);
     if (!std::isfinite(ping.heading_rad)) {
@@ -237,9 +238,9 @@ std::string plane_text(const PlaneSlice& plane, const SlicePing& ping, const Sli
     return fmt::format("Vertical plane, true bearing {:.1f}\u00B0 to the right",
                        wrap_360(deg_from_rad(azimuth + ping.heading_rad)));
   }
-  return fmt::format("Oblique plane through {} {}, {} to {}, depth {}", length(std::abs(plane.origin.x)),
+  return fmt::format("Oblique plane through {} {}, {} to {}, {}", length(std::abs(plane.origin.x)),
                      plane.origin.x < 0.0 ? "astern" : "ahead", length(std::abs(plane.origin.y)),
-                     plane.origin.y < 0.0 ? "port" : "starboard", length(depth));
+                     plane.origin.y < 0.0 ? "port" : "starboard", depth);
 }
 
 }  // namespace

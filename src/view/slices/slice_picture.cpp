@@ -57,7 +57,8 @@ void label_axes(PlotFrame& plot, const Sector& sector, const SliceView& view, co
   const auto depths = [&](double origin_z) {
     plot.y.first += origin_z + ping.transducer_depth_m;
     plot.y.last += origin_z + ping.transducer_depth_m;
-    plot.y = length_axis(plot.y.first, plot.y.last, "depth", theme);
+    plot.y = length_axis(plot.y.first, plot.y.last, ping.moved ? fmt::format("depth, {}", kStraightAndLevel) : "depth",
+                         theme);
   };
   const auto from_above = [&] { label_from_above(plot, sector, north_up, view.up_rad, theme); };
   if (std::holds_alternative<TopSlice>(view.slice)) return from_above();

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/array.h"
@@ -69,7 +70,10 @@ struct SlicePing {
   double transducer_depth_m = 0.0;
   std::vector<double> frequency_hz;          ///< [fan], for the title; may be empty
   std::shared_ptr<const Refraction> rays{};  ///< drawn in the side slice with its rings; null = no profile is known
+  bool moved = false;                        ///< places in tables are turned or bent, and these are not: depths say so
 };
+/// What pictures say then of the depths that they draw.
+inline constexpr std::string_view kStraightAndLevel = "straight and level beams";
 
 /// What a slice's key tells beside the looks of flagged samples.
 struct SliceKey {

@@ -187,6 +187,8 @@ TEST(SlicePicture, TitlesSayWhatBearingsStartFrom) {
   EXPECT_EQ(second_line({SideSlice{3}}, false), "Side: beam 3, 270.0\u00B0 from the bow, true bearing 290.0\u00B0");
   EXPECT_EQ(second_line({vertical_plane(rad_from_deg(270.0))}, false),
             "Vertical plane, true bearing 290.0\u00B0 to the right");
+  ping.moved = true;
+  EXPECT_EQ(second_line(level, true), "Horizontal plane, depth 50.0 m, straight and level beams; true bearings");
 }
 
 // Words lie over lines, never under them.

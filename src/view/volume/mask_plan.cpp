@@ -6,6 +6,9 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <utility>
+
+#include "model/outline.h"
 
 namespace sonar {
 namespace {
@@ -98,10 +101,15 @@ class ToCells {
   explicit ToCells(const PlanRaster& r) : raster_(r), det_(r.x_step_u * r.y_step_v - r.x_step_v * r.y_step_u) {}
   [[nodiscard]] bool sound() const { return std::isfinite(det_) && det_ != 0.0; }
   void add(Box& box, double u, double v) const {
+    const PlanePoint p = at(u, v);
+    box.add(p.x, p.y);
+  }
+  /// In cells: whole numbers are middles.
+  [[nodiscard]] PlanePoint at(double u, double v) const {
     const double du = u - raster_.origin_u;
     const double dv = v - raster_.origin_v;
-    box.add((du * raster_.y_step_v - dv * raster_.y_step_u) / det_,
-            (dv * raster_.x_step_u - du * raster_.x_step_v) / det_);
+    return {(du * raster_.y_step_v - dv * raster_.y_step_u) / det_,
+            (dv * raster_.x_step_u - du * raster_.x_step_v) / det_};
   }
 
  private:
@@ -135,6 +143,19 @@ CellBox clamped(const Box& b, int width, int height) {
           cell(std::floor(b.high_x + 0.5) + 1.0, width), cell(std::floor(b.high_y + 0.5) + 1.0, height)};
 }
 
+/// Nothing lit in the cells of a box that the raster has.
+MaskPatch dark_patch(const Box& box, const PlanRaster& raster) {
+  MaskPatch patch;
+  const CellBox whole = clamped(box, raster.width, raster.height);
+  if (whole.end_x <= whole.first_x || whole.end_y <= whole.first_y) return patch;
+  patch.first_x = whole.first_x;
+  patch.first_y = whole.first_y;
+  patch.width = whole.end_x - whole.first_x;
+  patch.height = whole.end_y - whole.first_y;
+  patch.confidence.assign(static_cast<std::size_t>(patch.width) * static_cast<std::size_t>(patch.height), 0);
+  return patch;
+}
+
 void light(MaskPatch& patch, int x, int y, std::uint8_t q) {
   if (x < patch.first_x || x >= patch.first_x + patch.width || y < patch.first_y || y >= patch.first_y + patch.height) {
     return;
@@ -143,6 +164,10 @@ void light(MaskPatch& patch, int x, int y, std::uint8_t q) {
       patch.confidence[static_cast<std::size_t>(y - patch.first_y) * static_cast<std::size_t>(patch.width) +
                        static_cast<std::size_t>(x - patch.first_x)];
   cell = std::max(cell, q);
+}
+
+void light(MaskPatch& patch, const PlanePoint& at, std::uint8_t q) {
+  light(patch, static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y)), q);
 }
 
 /// Wedges are narrower than half a turn: two cross products tell on which side of the bounds a cell lies.
@@ -172,9 +197,67 @@ void stamp(const MaskWedge& w, double bin_m, const ToCells& cells, MaskPatch& pa
   for (std::size_t i = 0; i < w.bins.size(); ++i) {
     if (w.bins[i] == 0) continue;
     const double d = (w.first_bin + static_cast<double>(i) + 0.5) * bin_m;
-    Box at;
-    cells.add(at, d * std::cos(a), d * std::sin(a));
-    light(patch, static_cast<int>(std::lround(at.low_x)), static_cast<int>(std::lround(at.low_y)), w.bins[i]);
+    light(patch, cells.at(d * std::cos(a), d * std::sin(a)), w.bins[i]);
+  }
+}
+
+/// Cells of one confidence from above.
+struct LitRings {
+  std::vector<Ring> rings;          ///< in cells
+  std::vector<PlanePoint> middles;  ///< of its voxels, in cells
+  std::uint8_t confidence = 0;
+};
+
+/// What follows of a run from a sample on with the same confidence.
+/// q  of the run's voxels
+Run of_one_confidence(const Run& run, int sample, const std::uint8_t* q) {
+  const std::uint8_t* from = q + (sample - run.first_sample);
+  const std::uint8_t* end = std::find_if(from, q + run.count, [&](std::uint8_t other) { return other != *from; });
+  return {run.row, sample, static_cast<std::int32_t>(end - from)};
+}
+
+LitRings lit_rings(const Sector& sector, const Run& run, std::uint8_t confidence, const Placement& bow_up,
+                   const ToCells& cells) {
+  LitRings out{mask_rings(sector, {{run}, {}}, bow_up), {}, confidence};
+  for (Ring& ring : out.rings) {
+    for (PlanePoint& p : ring) p = cells.at(p.y, p.x);
+  }
+  if (out.rings.empty()) return out;  // no attitude is known
+  for (std::int32_t s = run.first_sample; s < run.end(); ++s) {
+    const SectorIndex voxel{static_cast<double>(run.row / sector.beams()),
+                            static_cast<double>(run.row % sector.beams()), static_cast<double>(s)};
+    const Point<Sonar> middle = levelled(sector.place_at(voxel), bow_up);
+    out.middles.push_back(cells.at(middle.x, middle.y));
+  }
+  return out;
+}
+
+/// The whole numbers of low .. high that are `first` or more and less than `end`.
+std::pair<int, int> whole_numbers(double low, double high, int first, int end) {
+  const auto within = [&](double v) { return static_cast<int>(std::clamp<double>(v, first, end)); };
+  return {within(std::ceil(low)), within(std::floor(high) + 1.0)};
+}
+
+/// Lights the cells whose middles a ring holds.
+void fill(const Ring& ring, std::uint8_t q, MaskPatch& patch) {
+  if (ring.empty()) return;
+  const auto [top, bottom] =
+      std::minmax_element(ring.begin(), ring.end(), [](const PlanePoint& a, const PlanePoint& b) { return a.y < b.y; });
+  const auto [first_y, end_y] = whole_numbers(top->y, bottom->y, patch.first_y, patch.first_y + patch.height);
+  std::vector<double> crossings;
+  for (int y = first_y; y < end_y; ++y) {
+    crossings.clear();
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const PlanePoint& a = ring[i];
+      const PlanePoint& b = ring[(i + 1) % ring.size()];
+      if ((a.y > y) != (b.y > y)) crossings.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+    }
+    std::sort(crossings.begin(), crossings.end());
+    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+      const auto [first_x, end_x] =
+          whole_numbers(crossings[i], crossings[i + 1], patch.first_x, patch.first_x + patch.width);
+      for (int x = first_x; x < end_x; ++x) light(patch, x, y, q);
+    }
   }
 }
 
@@ -231,16 +314,39 @@ MaskPatch patch_of(const MaskPlan& plan, const PlanRaster& raster) {
     all.add(box.high_x, box.high_y);
     boxes.push_back(clamped(box, raster.width, raster.height));
   }
-  const CellBox whole = clamped(all, raster.width, raster.height);
-  if (whole.end_x <= whole.first_x || whole.end_y <= whole.first_y) return patch;
-  patch.first_x = whole.first_x;
-  patch.first_y = whole.first_y;
-  patch.width = whole.end_x - whole.first_x;
-  patch.height = whole.end_y - whole.first_y;
-  patch.confidence.assign(static_cast<std::size_t>(patch.width) * static_cast<std::size_t>(patch.height), 0);
+  patch = dark_patch(all, raster);
+  if (patch.empty()) return patch;
   for (std::size_t i = 0; i < plan.wedges.size(); ++i) {
     paint(plan.wedges[i], plan.bin_m, raster, boxes[i], patch);
     stamp(plan.wedges[i], plan.bin_m, cells, patch);
+  }
+  return patch;
+}
+
+MaskPatch patch_from_above(const Sector& sector, const PingMask& mask, const Placement& placement,
+                           const PlanRaster& raster) {
+  const ToCells cells(raster);
+  if (!cells.sound()) return {};
+  // Seen from above with the bow to the north, east is starboard.
+  Placement bow_up = placement;
+  bow_up.heading_rad = 0.0;
+  std::vector<LitRings> lit;
+  Box all;
+  each_run(sector, mask, [&](const Run& run, const std::uint8_t* q) {
+    for (int s = run.first_sample; s < run.end();) {
+      const Run alike = of_one_confidence(run, s, q);
+      lit.push_back(lit_rings(sector, alike, q[s - run.first_sample], bow_up, cells));
+      for (const Ring& ring : lit.back().rings) {
+        for (const PlanePoint& p : ring) all.add(p.x, p.y);
+      }
+      s = alike.end();
+    }
+  });
+  MaskPatch patch = dark_patch(all, raster);
+  if (patch.empty()) return patch;
+  for (const LitRings& cell : lit) {
+    for (const Ring& ring : cell.rings) fill(ring, cell.confidence, patch);
+    for (const PlanePoint& middle : cell.middles) light(patch, middle, cell.confidence);
   }
   return patch;
 }

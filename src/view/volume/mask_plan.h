@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geo/frames.h"
 #include "geo/sector.h"
 #include "model/mask.h"
 
@@ -55,5 +56,11 @@ struct MaskPatch {
 /// The plan on a raster: each cell takes the bin under its middle, and each lit bin lights at least the cell of its own
 /// middle, so that nothing is lost however coarse the raster.
 [[nodiscard]] MaskPatch patch_of(const MaskPlan& plan, const PlanRaster& raster);
+
+/// A mask from above on a raster where roll and pitch turn the beams or rays bend them, so that it has no plan: each cell
+/// lies in the rings of mask_rings(), and each voxel lights at least the cell that its own middle, levelled(), lies in.
+/// placement  its heading does not count: the raster's u points to the bow
+[[nodiscard]] MaskPatch patch_from_above(const Sector& sector, const PingMask& mask, const Placement& placement,
+                                         const PlanRaster& raster);
 
 }  // namespace sonar
