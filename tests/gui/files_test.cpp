@@ -14,7 +14,6 @@
 #include <QProcess>
 #include <QPushButton>
 #include <QSpinBox>
-#include <QTimer>
 #include <QToolButton>
 #include <QUrl>
 #include <algorithm>
@@ -88,16 +87,9 @@ class Files : public WindowAtWork {
 
 TEST_F(Files, APictureIsAskedForItsSizeInADialog) {
   app_->dialogs.parameters = real_parameters_;
-  const auto answer = [this](const std::function<void(QDialog&)>& act) {
-    QTimer::singleShot(0, window_.get(), [act] {
-      auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
-      ASSERT_NE(dialog, nullptr);
-      EXPECT_EQ(dialog->objectName(), "parameters");
-      act(*dialog);
-    });
-    trigger("picture.slice-plane");
-  };
-  answer([this](QDialog& dialog) {
+  const auto asks = [this] { trigger("picture.slice-plane"); };
+  with_dialog(asks, [this](QDialog& dialog) {
+    EXPECT_EQ(dialog.objectName(), "parameters");
     auto* width = dialog.findChild<QSpinBox*>("width_px");
     ASSERT_NE(width, nullptr);
     width->setFocus();
@@ -111,7 +103,7 @@ TEST_F(Files, APictureIsAskedForItsSizeInADialog) {
   ASSERT_TRUE(picture) << told();
   EXPECT_EQ(picture->size.width, 640);
   fs::remove(saved_);
-  answer([](QDialog& dialog) {
+  with_dialog(asks, [](QDialog& dialog) {
     dialog.findChild<QSpinBox*>("width_px")->setValue(999);
     QTest::mouseClick(dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Cancel), Qt::LeftButton);
   });
@@ -185,24 +177,22 @@ TEST_F(Files, FilesAreOpenedByTheirDialogAndByDropping) {
 
 // Found by its name, changed and used, by hand; what is saved on the way is a recipe that a run reads.
 TEST_F(Files, ARecipeIsChangedInItsDialog) {
-  QTimer::singleShot(0, window_.get(), [this] {
-    auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
-    ASSERT_NE(dialog, nullptr);
-    keep_dialog(*dialog);
-    QTest::keyClicks(dialog->findChild<QLineEdit*>("words"), "detect.tolerance");
-    auto* box = dialog->findChild<QDoubleSpinBox*>("detect.tolerance_db.box");
+  const auto changes = [this](QDialog& dialog) {
+    keep_dialog(dialog);
+    QTest::keyClicks(dialog.findChild<QLineEdit*>("words"), "detect.tolerance");
+    auto* box = dialog.findChild<QDoubleSpinBox*>("detect.tolerance_db.box");
     ASSERT_NE(box, nullptr);
-    EXPECT_EQ(dialog->findChild<QWidget*>("background.quantile.box"), nullptr) << "only what was looked for";
+    EXPECT_EQ(dialog.findChild<QWidget*>("background.quantile.box"), nullptr) << "only what was looked for";
     box->setFocus();
     box->selectAll();
     QTest::keyClicks(box, "7");
     QTest::keyClick(box, Qt::Key_Return);
     // What is not the default says so, and a button brings the default back.
-    auto* usual = dialog->findChild<QToolButton*>("detect.tolerance_db.default");
+    auto* usual = dialog.findChild<QToolButton*>("detect.tolerance_db.default");
     QApplication::processEvents();
     pump_->queue().drain();
     EXPECT_TRUE(usual->isVisible());
-    keep_dialog(*dialog);
+    keep_dialog(dialog);
     QTest::mouseClick(usual, Qt::LeftButton);
     pump_->queue().drain();
     EXPECT_EQ(box->value(), Recipe{}.detect.tolerance_db);
@@ -211,12 +201,12 @@ TEST_F(Files, ARecipeIsChangedInItsDialog) {
     box->selectAll();
     QTest::keyClicks(box, "7");
     QTest::keyClick(box, Qt::Key_Return);
-    QTest::mouseClick(dialog->findChild<QPushButton*>("save"), Qt::LeftButton);
-    QTest::mouseClick(dialog->findChild<QCheckBox*>("changed"), Qt::LeftButton);
-    EXPECT_NE(dialog->findChild<QDoubleSpinBox*>("detect.tolerance_db.box"), nullptr);
-    QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok), Qt::LeftButton);
-  });
-  trigger("file.recipe");
+    QTest::mouseClick(dialog.findChild<QPushButton*>("save"), Qt::LeftButton);
+    QTest::mouseClick(dialog.findChild<QCheckBox*>("changed"), Qt::LeftButton);
+    EXPECT_NE(dialog.findChild<QDoubleSpinBox*>("detect.tolerance_db.box"), nullptr);
+    QTest::mouseClick(dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok), Qt::LeftButton);
+  };
+  with_dialog([this] { trigger("file.recipe"); }, changes);
   EXPECT_EQ(document().recipe().detect.tolerance_db, 7.0) << told();
   EXPECT_TRUE(document().staged()) << "the survey is there again";
   const auto saved = read_recipe(saved_.string());
