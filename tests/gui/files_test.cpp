@@ -12,20 +12,24 @@
 #include <QLineEdit>
 #include <QMimeData>
 #include <QProcess>
+#include <QProgressBar>
 #include <QPushButton>
 #include <QSpinBox>
+#include <QStatusBar>
 #include <QToolButton>
 #include <QUrl>
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 #include "gui/action_menus.h"
 #include "publish/picture_options.h"
 #include "publish/picture_source.h"
 #include "render/draw_frame.h"
+#include "session/listening.h"
 #include "session/playing/playback.h"
 #include "session/test_run.h"
 #include "window_at_work.h"
@@ -34,6 +38,29 @@ namespace sonar {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Programs are looked for in this folder alone, for as long as this lives.
+class OtherPath {
+ public:
+  explicit OtherPath(const fs::path& folder) { ::setenv("PATH", folder.c_str(), 1); }
+  ~OtherPath() { before_.empty() ? ::unsetenv("PATH") : ::setenv("PATH", before_.c_str(), 1); }
+  OtherPath(const OtherPath&) = delete;
+  OtherPath& operator=(const OtherPath&) = delete;
+
+ private:
+  std::string before_ = std::getenv("PATH") == nullptr ? "" : std::getenv("PATH");
+};
+
+/// As the chunk acTL tells it (APNG specification 1.0: its first four bytes, the highest first); 0 where there is none.
+int frames_of_animated_png(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::size_t at = bytes.find("acTL");
+  if (at == std::string::npos || at + 8 > bytes.size()) return 0;
+  int frames = 0;
+  for (std::size_t i = at + 4; i < at + 8; ++i) frames = 256 * frames + static_cast<unsigned char>(bytes[i]);
+  return frames;
+}
 
 class Files : public WindowAtWork {
  protected:
@@ -268,6 +295,34 @@ TEST_F(Files, TheMovieOfASchoolIsOnePictureAPing) {
   ASSERT_EQ(files.size(), 1U);
   EXPECT_EQ(files.front().stem(), "movie");
   EXPECT_TRUE(files.front().extension() == ".mp4" || read_png(files.front())) << files.front();
+}
+
+// Without ffmpeg: one line, which says where the movie is and why it is no MP4, and a bar that counts pictures up to all.
+TEST_F(Files, WithoutFfmpegAMovieIsAnAnimatedPngAndItsPicturesAreCounted) {
+  follow_a_school();
+  const fs::path nothing = TestSurvey::easy().fresh();
+  const OtherPath path(nothing);
+  const auto& bar = *window_->statusBar()->findChild<QProgressBar*>();
+  const int pictures = static_cast<int>(masks().size());
+  std::vector<int> counted;
+  const Listening listening(document().changes(), [&](DocumentChange change) {
+    if (change != DocumentChange::progress || document().progress().stage != "movie") return;
+    EXPECT_EQ(document().progress().total, pictures);
+    counted.push_back(static_cast<int>(document().progress().done));
+    EXPECT_EQ(std::pair(bar.value(), bar.maximum()), std::pair(counted.back(), pictures)) << "the bar follows";
+  });
+  const std::size_t before = document().notices().size();
+  find_action(*window_, "export.movie")->trigger();
+  const auto told_of_it = [&] { return document().notices().size() > before; };
+  while (!told_of_it()) QApplication::processEvents(QEventLoop::WaitForMoreEvents);
+  settle();
+  EXPECT_TRUE(std::is_sorted(counted.begin(), counted.end()));
+  EXPECT_GT(counted.size(), 1U) << "it is seen to go on";
+  EXPECT_EQ(document().notices().size(), before + 1) << "one line";
+  const fs::path file = out_ / "movie.png";
+  EXPECT_EQ(told(), "written: " + std::to_string(pictures) + " pictures in " + file.string() +
+                        "; with the program ffmpeg it would be an MP4");
+  EXPECT_EQ(frames_of_animated_png(file), pictures);
 }
 
 TEST_F(Files, APictureOfTheViewInUseIsWhatItShows) {
