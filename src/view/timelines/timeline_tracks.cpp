@@ -70,7 +70,8 @@ void add_track_numbers(FrameDescription& frame, std::span<const TrackNumber> num
   for (const bool selected : {true, false}) {
     for (const TrackNumber& number : numbers) {
       if (number.selected != selected) continue;
-      TextItem item = text_item({}, number.text, 0.85 * em, selected ? theme.accent : theme.text, TextAnchor::left);
+      TextItem item = text_item({}, number.text, small_text_px(theme, 0.85), selected ? theme.accent : theme.text,
+                                TextAnchor::left);
       item.bold = true;
       item.halo = theme.halo;
       const double width = text_width_px(item.text.c_str(), item.size_px);
