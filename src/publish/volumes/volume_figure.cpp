@@ -193,12 +193,13 @@ void add_labels(FrameDescription& frame, const VolumeFigure& figure, const Pictu
   if (view.opaque_m) opaque.metres = *view.opaque_m;
   add_context_labels(labels, figure.sector(), volume_surroundings(figure, options), basis(view.camera, size), theme,
                      opaque, taken);
+  const auto move = [&place](PixelPoint& p) { p = {p.x + place.rect.x, p.y + place.rect.y}; };
   for (auto& item : labels.items) {
-    if (auto* text = std::get_if<TextItem>(&item)) {
-      text->at.x += place.rect.x;
-      text->at.y += place.rect.y;
-      frame.items.emplace_back(std::move(*text));
+    if (auto* text = std::get_if<TextItem>(&item)) move(text->at);
+    if (auto* line = std::get_if<PathItem>(&item)) {
+      for (auto& part : line->parts) std::for_each(part.points.begin(), part.points.end(), move);
     }
+    frame.items.emplace_back(std::move(item));
   }
 }
 

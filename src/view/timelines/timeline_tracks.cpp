@@ -82,7 +82,10 @@ void add_track_numbers(FrameDescription& frame, std::span<const TrackNumber> num
         where.push_back({p.x - width - 0.5 * em, p.y});
         where.push_back({p.x + 0.5 * em, p.y});
       }
-      if (auto placed = room.place(std::move(item), where)) frame.items.emplace_back(std::move(*placed));
+      item.at = where.front();
+      auto placed = room.place(item, where);
+      if (!placed && selected) placed = room.force(std::move(item));
+      if (placed) frame.items.emplace_back(std::move(*placed));
     }
   }
 }
