@@ -305,7 +305,8 @@ FrameDescription volume_figure_frame(const VolumeFigure& figure, const PictureOp
   if (options.volume.context) add_labels(frame, figure, options, place, view, legend.place, schools);
   add_refused(frame, figure, place, view);
   add_volume_legend(frame, legend, theme);
-  if (const std::string words = nothing_shown(figure, options, view, rays); !words.empty()) {
+  const auto within = [&](const std::string& words) { return elided_line(words, theme.text_px, place.rect.width); };
+  if (const std::string words = within(nothing_shown(figure, options, view, rays)); !words.empty()) {
     const PixelPoint middle{place.rect.x + 0.5 * place.rect.width, place.rect.y + 0.5 * place.rect.height};
     frame.items.emplace_back(
         TextItem{middle, words, theme.text_px, theme.text, TextAnchor::centre, 0.0, false, theme.halo});
@@ -313,7 +314,7 @@ FrameDescription volume_figure_frame(const VolumeFigure& figure, const PictureOp
   if (!figure.mark.empty()) {
     const PixelPoint top{place.rect.x + 0.5 * place.rect.width, place.rect.y + 1.2 * theme.text_px};
     frame.items.emplace_back(
-        TextItem{top, figure.mark, theme.text_px, theme.text, TextAnchor::centre, 0.0, true, theme.halo});
+        TextItem{top, within(figure.mark), theme.text_px, theme.text, TextAnchor::centre, 0.0, true, theme.halo});
   }
   add_colour_bars(frame, figure, options, place, view.masks.data_too);
   std::string line = view_line(figure, options, place, view.masks.data_too);
