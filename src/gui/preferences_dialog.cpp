@@ -71,13 +71,15 @@ bool ask_preferences(QWidget& window, AppModel& app) {
 }
 
 void take_text_size(double percent) {
+  constexpr double kLeast_pt = 9.0;
+  constexpr int kLeast_px = 12;  // of 96 an inch
   static const QFont kUsual = QApplication::font();
   QFont font = QApplication::font();
   // A font has its size in points or in pixels.
   if (kUsual.pixelSize() > 0) {
-    font.setPixelSize(std::max(1, static_cast<int>(std::lround(kUsual.pixelSize() * percent / 100.0))));
+    font.setPixelSize(std::max(kLeast_px, static_cast<int>(std::lround(kUsual.pixelSize() * percent / 100.0))));
   } else {
-    font.setPointSizeF(kUsual.pointSizeF() * percent / 100.0);
+    font.setPointSizeF(std::max(kLeast_pt, kUsual.pointSizeF() * percent / 100.0));
   }
   if (font != QApplication::font()) QApplication::setFont(font);
 }

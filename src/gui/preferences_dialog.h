@@ -11,7 +11,7 @@ namespace sonar {
 /// out  false where the human declined: what was there is to be brought back
 [[nodiscard]] bool ask_preferences(QWidget& window, AppModel& app);
 
-/// Size of text in the window's menus, lists and controls.
+/// Size of text in the window's menus, lists and controls: 9 points at least.
 /// percent  of the usual one
 void take_text_size(double percent);
 

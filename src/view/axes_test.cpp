@@ -178,6 +178,27 @@ TEST(Elided, KeepsWholeLettersOfTheBeginning) {
   EXPECT_EQ(elided("north", 10.0, 1.0), "");
 }
 
+// Law: at every width what is left is the line's beginning, ends where a word ends, and fits; and more room never leaves less.
+TEST(Elided, ALineLosesWholePartsAndWords) {
+  const std::string line = "Top: fan 17, elevation \u22124.7\u00B0, 79.6 kHz; bearings from the bow";
+  std::size_t before = 0;
+  for (double width = 0.0; width < 600.0; width += 1.0) {
+    const std::string left = elided_line(line, 12.0, width);
+    ASSERT_LE(text_width_px(left.c_str(), 12.0), width);
+    ASSERT_GE(left.size(), before) << width;
+    before = left.size();
+    if (left == line || left.empty()) continue;
+    ASSERT_TRUE(left.ends_with("\u2026")) << left;
+    const std::string kept = left.substr(0, left.size() - 3);
+    ASSERT_TRUE(line.starts_with(kept)) << left;
+    EXPECT_TRUE(std::string(" ,;:").find(line[kept.size()]) != std::string::npos) << left;
+    EXPECT_EQ(left.find("79.6\u2026"), std::string::npos) << "no figure without its unit";
+  }
+  EXPECT_EQ(elided_line(line, 12.0, 1000.0), line);
+  EXPECT_EQ(elided_line("a b", 10.0, text_width_px("a\u2026", 10.0)), "a\u2026");
+  EXPECT_EQ(elided_line("north", 10.0, text_width_px("nor\u2026", 10.0)), "") << "words are not cut";
+}
+
 TEST(Title, NothingLeavesANarrowPictureAndSyntheticStays) {
   const std::vector<std::string> lines{"obs-0001 of SYNTHETIC survey of herring in the north",
                                        "Top: fan 4, elevation -30.0, 75.0 kHz"};

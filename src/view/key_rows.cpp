@@ -10,7 +10,7 @@
 namespace sonar {
 namespace {
 
-constexpr double kText_em = 0.9;  ///< of the theme's text
+constexpr double kText = 0.9;  ///< of the theme's text
 constexpr double kSwatch_em = 1.7;
 constexpr double kBeside_em = 0.5;  ///< between a swatch and its words
 constexpr double kBetween_em = 1.5;
@@ -22,7 +22,8 @@ std::vector<std::pair<int, double>> places(std::span<const KeyEntry> entries, do
   int line = 0;
   double x = 0.0;
   for (const KeyEntry& entry : entries) {
-    const double width = (kSwatch_em + kBeside_em) * em + text_width_px(entry.text.c_str(), kText_em * em);
+    const double width =
+        (kSwatch_em + kBeside_em) * em + text_width_px(entry.text.c_str(), small_text_px(theme, kText));
     if (x > 0.0 && x + width > width_px) {
       ++line;
       x = 0.0;
@@ -41,6 +42,7 @@ int key_lines(std::span<const KeyEntry> entries, double width_px, const Theme& t
 
 void add_key(FrameDescription& frame, const PixelRect& place, std::span<const KeyEntry> entries, const Theme& theme) {
   const double em = theme.text_px;
+  const double size = small_text_px(theme, kText);
   const auto at = places(entries, place.width, theme);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (!entries[i].draw) continue;
@@ -49,9 +51,8 @@ void add_key(FrameDescription& frame, const PixelRect& place, std::span<const Ke
                            std::round(kSwatch_em * em), std::round(em)};
     entries[i].draw(frame, swatch);
     const double words = swatch.x + (kSwatch_em + kBeside_em) * em;
-    frame.items.emplace_back(text_item({words, middle},
-                                       elided(entries[i].text, kText_em * em, place.x + place.width - words),
-                                       kText_em * em, theme.text));
+    frame.items.emplace_back(
+        text_item({words, middle}, elided(entries[i].text, size, place.x + place.width - words), size, theme.text));
   }
 }
 

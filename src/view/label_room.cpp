@@ -61,6 +61,17 @@ bool LabelRoom::crossed(const PixelRect& box) const {
   return std::any_of(lines_.begin(), lines_.end(), [&](const Line& l) { return meets(l.a, l.b, box); });
 }
 
+TextItem LabelRoom::force(TextItem label) {
+  const PixelRect box = box_of(label);
+  const auto moved = [](double from, double length, double first, double room) {
+    return std::clamp(from, first, std::max(first, first + room - length)) - from;
+  };
+  label.at.x += moved(box.x, box.width, inside_.x, inside_.width);
+  label.at.y += moved(box.y, box.height, inside_.y, inside_.height);
+  taken_.push_back(box_of(label));
+  return label;
+}
+
 std::optional<TextItem> LabelRoom::place(TextItem label, std::span<const PixelPoint> places, bool on_lines) {
   std::optional<PixelPoint> second_best;
   for (const PixelPoint& at : places) {

@@ -25,6 +25,9 @@ class LabelRoom {
   /// on_lines  false: rather none than one that crosses a line
   [[nodiscard]] std::optional<TextItem> place(TextItem label, std::span<const PixelPoint> places, bool on_lines = true);
 
+  /// The label as near to its anchor as it lies inside, whatever it lies on; its room is taken.
+  [[nodiscard]] TextItem force(TextItem label);
+
   /// What a level text covers, pixels; a little wide, since no font is asked.
   [[nodiscard]] static PixelRect box_of(const TextItem& label);
 

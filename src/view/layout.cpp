@@ -72,6 +72,12 @@ namespace {
 constexpr double kBold = 1.1;      ///< bold letters, of the width of plain ones
 constexpr double kSmaller = 0.85;  ///< of the text that stands at a title's right
 
+/// By whole words, or by letters where not even one of them has room.
+std::string elided_title(const std::string& title, double size_px, double width_px) {
+  std::string words = elided_line(title, size_px, width_px);
+  return words.empty() ? elided(title, size_px, width_px) : words;
+}
+
 /// A title shortened to a width; data that nobody has recorded must still be known by it.
 std::string shortened_title(std::string title, double size_px, double width_px) {
   constexpr const char* kMark = "SYNTHETIC";
@@ -79,9 +85,9 @@ std::string shortened_title(std::string title, double size_px, double width_px) 
   if (title.starts_with(kSaysLittle) && text_width_px(title.c_str(), kBold * size_px) > width_px) {
     title.erase(0, kSaysLittle.size());
   }
-  std::string out = elided(title, kBold * size_px, width_px);
+  std::string out = elided_title(title, kBold * size_px, width_px);
   const bool lost = title.find(kMark) != std::string::npos && out.find(kMark) == std::string::npos;
-  return lost ? elided(std::string(kMark) + " " + title, kBold * size_px, width_px) : out;
+  return lost ? elided_title(std::string(kMark) + " " + title, kBold * size_px, width_px) : out;
 }
 
 /// "2020-01-04 08:00:50 UTC" without its day; other texts as they are.
@@ -135,9 +141,9 @@ void add_title(FrameDescription& frame, const Layout& layout, const Theme& theme
     const double room = shared ? layout.title.width - right_width : width;
     const bool large = first && text_width_px(lines[i].c_str(), kBold * theme.title_px) <= room;
     const double size = large ? theme.title_px : theme.text_px;
-    TextItem item =
-        text_item({layout.title.x, y}, first ? shortened_title(lines[i], size, room) : elided(lines[i], size, room),
-                  size, first ? theme.text : theme.muted);
+    TextItem item = text_item({layout.title.x, y},
+                              first ? shortened_title(lines[i], size, room) : elided_line(lines[i], size, room), size,
+                              first ? theme.text : theme.muted);
     item.bold = first;
     frame.items.emplace_back(std::move(item));
     if (shared) {

@@ -66,6 +66,52 @@ std::optional<TextItem> placed_about(FrameDescription& frame, LabelRoom& room, c
   return std::nullopt;
 }
 
+std::array<PixelPoint, 8> places_beside(const PixelRect& named, const TextItem& label) {
+  const PixelRect own = LabelRoom::box_of(label);
+  const double right = 0.5 * (named.width + own.width) + 0.3 * label.size_px;
+  const double down = 0.5 * (named.height + own.height) + 0.15 * label.size_px;
+  const PixelPoint c{named.x + 0.5 * named.width, named.y + 0.5 * named.height};
+  return {{{c.x + right, c.y},
+           {c.x - right, c.y},
+           {c.x, c.y - down},
+           {c.x, c.y + down},
+           {c.x + right, c.y - down},
+           {c.x - right, c.y - down},
+           {c.x + right, c.y + down},
+           {c.x - right, c.y + down}}};
+}
+
+namespace {
+
+/// Places on a rectangle, its middle first.
+std::vector<PixelPoint> places_upon(const PixelRect& rect) {
+  std::vector<PixelPoint> out;
+  for (const double y : {0.5, 0.3, 0.7, 0.1, 0.9}) {
+    for (const double x : {0.5, 0.3, 0.7, 0.1, 0.9}) out.push_back({rect.x + x * rect.width, rect.y + y * rect.height});
+  }
+  return out;
+}
+
+}  // namespace
+
+void add_selected_name(FrameDescription& frame, LabelRoom& room, TextItem name, const std::string& number,
+                       const PixelRect& seen, const Theme& theme) {
+  LabelRoom beside = room;
+  beside.take(seen);
+  auto placed = beside.place(name, places_beside(seen, name));
+  if (!placed) {
+    name.text = number;
+    name.at = {seen.x + 0.5 * seen.width, seen.y + 0.5 * seen.height};
+    placed = beside.place(name, places_beside(seen, name));
+  }
+  const double radius = 0.5 * std::min(seen.width, seen.height);
+  if (!placed) placed = placed_about(frame, beside, name, {name.at, number, radius}, theme, 1);
+  if (!placed) placed = room.place(name, places_upon(seen));
+  frame.items.emplace_back(placed ? *placed : room.force(name));
+  room.take(seen);
+  if (placed) room.take(LabelRoom::box_of(*placed));
+}
+
 std::string named_text(std::int64_t number, const std::string& name, const Theme& theme) {
   constexpr double kWidest_em = 12.0;
   if (name.empty()) return {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -30,6 +31,17 @@ struct NumberedPlace {
 [[nodiscard]] std::optional<TextItem> placed_about(FrameDescription& frame, LabelRoom& room, const TextItem& label,
                                                    const NumberedPlace& place, const Theme& theme,
                                                    std::size_t nearest = 0);
+
+/// Anchors of a label right and left of what it names, above and below it, and beyond its corners.
+[[nodiscard]] std::array<PixelPoint, 8> places_beside(const PixelRect& named, const TextItem& label);
+
+/// A selected school's name beside what is seen of the school; else its number, which is always there: beside it, farther
+/// off with a line to it, upon it where it fills the picture, at last on other words.
+/// room  knows nothing of what is seen of the school, and then that as taken
+/// name  anchored in its middle
+/// seen  the part of the school that lies in the room
+void add_selected_name(FrameDescription& frame, LabelRoom& room, TextItem name, const std::string& number,
+                       const PixelRect& seen, const Theme& theme);
 
 /// "3 Big one"; empty without a name. A long one is cut.
 [[nodiscard]] std::string named_text(std::int64_t number, const std::string& name, const Theme& theme);

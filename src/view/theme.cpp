@@ -106,8 +106,25 @@ Rgba8 school_colour(int number) {
   return kColours[static_cast<std::size_t>(((number % n) + n) % n)];
 }
 
+namespace {
+constexpr const char* kEllipsis = "\u2026";
+}  // namespace
+
+std::string elided_line(const std::string& text, double size_px, double width_px) {
+  if (text_width_px(text.c_str(), size_px) <= width_px) return text;
+  for (const bool parts : {true, false}) {
+    for (std::size_t end = text.size(); end-- > 1;) {
+      if (text[end] != ' ' || (parts && text[end - 1] != ',' && text[end - 1] != ';')) continue;
+      std::string begin = text.substr(0, end);
+      begin.erase(begin.find_last_not_of(" ,;:") + 1);
+      begin += kEllipsis;
+      if (begin != kEllipsis && text_width_px(begin.c_str(), size_px) <= width_px) return begin;
+    }
+  }
+  return {};
+}
+
 std::string elided(std::string text, double size_px, double width_px) {
-  constexpr const char* kEllipsis = "\u2026";
   if (text_width_px(text.c_str(), size_px) <= width_px) return text;
   const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
   while (!text.empty()) {

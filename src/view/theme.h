@@ -69,6 +69,10 @@ inline constexpr int kSchoolColours = 24;
 /// The text, or as much of its beginning as is no wider, with an ellipsis behind it; empty where not even that has room.
 [[nodiscard]] std::string elided(std::string text, double size_px, double width_px);
 
+/// The same of lines that tell one thing after another: by whole parts between commas or semicolons, else by whole words, so
+/// that no figure or unit is cut; empty where not even the first word has room.
+[[nodiscard]] std::string elided_line(const std::string& text, double size_px, double width_px);
+
 [[nodiscard]] inline Rgba8 with_alpha(Rgba8 c, int alpha) {
   c.a = static_cast<std::uint8_t>(alpha);
   return c;

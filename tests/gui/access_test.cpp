@@ -7,6 +7,7 @@
 #include <QAccessible>
 #include <QAction>
 #include <QDialog>
+#include <QFontInfo>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
@@ -55,6 +56,17 @@ Lines nameless(const QWidget& top) {
     if (!can_have_keyboard(*widget)) continue;
     const QAccessibleInterface* told = QAccessible::queryAccessibleInterface(widget);
     if (told == nullptr || told->text(QAccessible::Name).trimmed().isEmpty()) out.push_back(name_of(*widget));
+  }
+  return out;
+}
+
+/// What has letters of less than 9 points, seen now or not.
+Lines small_letters(const QWidget& top) {
+  constexpr int kLeast_px = 12;  // 9 points where an inch has 96 pixels
+  Lines out;
+  for (auto* widget : top.findChildren<QWidget*>()) {
+    const int size = QFontInfo(widget->font()).pixelSize();
+    if (size < kLeast_px) out.push_back(name_of(*widget) + ": " + std::to_string(size) + " px");
   }
   return out;
 }
@@ -113,6 +125,31 @@ TEST_F(Access, WhateverCanHaveTheKeyboardHasAName) {
   QLineEdit without(window_.get());
   without.show();
   EXPECT_THAT(nameless(*window_), testing::SizeIs(1)) << "one without a name is found";
+}
+
+// In the window, in every dialog and in the windows beside it, of a small screen, and however small a human wants it.
+// What is drawn has a test of its own, LeastText.
+TEST_F(Access, LettersHaveNinePointsAtLeast) {
+  window_->resize(1280, 800);
+  for (const double percent : {100.0, 70.0}) {
+    ASSERT_TRUE(workspace().window.set("text_size_percent", percent));
+    in_every_dialog([&](QDialog& dialog) {
+      EXPECT_THAT(small_letters(dialog), IsEmpty()) << dialog.objectName().toStdString() << ", " << percent << " %";
+    });
+    ASSERT_NE(batch_window(), nullptr);
+    app_->dialogs.show_integration();
+    app_->dialogs.show_biomass();
+    settle();
+    for (const QWidget* top : QApplication::topLevelWidgets()) {
+      EXPECT_THAT(small_letters(*top), IsEmpty()) << name_of(*top) << ", " << percent << " %";
+    }
+  }
+  ASSERT_TRUE(workspace().window.set("text_size_percent", 100.0));
+  QLabel small("a", window_.get());
+  QFont font = small.font();
+  font.setPixelSize(11);
+  small.setFont(font);
+  EXPECT_THAT(small_letters(*window_), testing::SizeIs(1)) << "one that is smaller is found";
 }
 
 TEST_F(Access, APictureIsReadInASentence) {

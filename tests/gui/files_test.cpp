@@ -12,21 +12,24 @@
 #include <QLineEdit>
 #include <QMimeData>
 #include <QProcess>
+#include <QProgressBar>
 #include <QPushButton>
 #include <QSpinBox>
-#include <QTimer>
+#include <QStatusBar>
 #include <QToolButton>
 #include <QUrl>
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 #include "gui/action_menus.h"
 #include "publish/picture_options.h"
 #include "publish/picture_source.h"
 #include "render/draw_frame.h"
+#include "session/listening.h"
 #include "session/playing/playback.h"
 #include "session/test_run.h"
 #include "window_at_work.h"
@@ -35,6 +38,29 @@ namespace sonar {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Programs are looked for in this folder alone, for as long as this lives.
+class OtherPath {
+ public:
+  explicit OtherPath(const fs::path& folder) { ::setenv("PATH", folder.c_str(), 1); }
+  ~OtherPath() { before_.empty() ? ::unsetenv("PATH") : ::setenv("PATH", before_.c_str(), 1); }
+  OtherPath(const OtherPath&) = delete;
+  OtherPath& operator=(const OtherPath&) = delete;
+
+ private:
+  std::string before_ = std::getenv("PATH") == nullptr ? "" : std::getenv("PATH");
+};
+
+/// As the chunk acTL tells it (APNG specification 1.0: its first four bytes, the highest first); 0 where there is none.
+int frames_of_animated_png(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::size_t at = bytes.find("acTL");
+  if (at == std::string::npos || at + 8 > bytes.size()) return 0;
+  int frames = 0;
+  for (std::size_t i = at + 4; i < at + 8; ++i) frames = 256 * frames + static_cast<unsigned char>(bytes[i]);
+  return frames;
+}
 
 class Files : public WindowAtWork {
  protected:
@@ -88,16 +114,9 @@ class Files : public WindowAtWork {
 
 TEST_F(Files, APictureIsAskedForItsSizeInADialog) {
   app_->dialogs.parameters = real_parameters_;
-  const auto answer = [this](const std::function<void(QDialog&)>& act) {
-    QTimer::singleShot(0, window_.get(), [act] {
-      auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
-      ASSERT_NE(dialog, nullptr);
-      EXPECT_EQ(dialog->objectName(), "parameters");
-      act(*dialog);
-    });
-    trigger("picture.slice-plane");
-  };
-  answer([this](QDialog& dialog) {
+  const auto asks = [this] { trigger("picture.slice-plane"); };
+  with_dialog(asks, [this](QDialog& dialog) {
+    EXPECT_EQ(dialog.objectName(), "parameters");
     auto* width = dialog.findChild<QSpinBox*>("width_px");
     ASSERT_NE(width, nullptr);
     width->setFocus();
@@ -111,7 +130,7 @@ TEST_F(Files, APictureIsAskedForItsSizeInADialog) {
   ASSERT_TRUE(picture) << told();
   EXPECT_EQ(picture->size.width, 640);
   fs::remove(saved_);
-  answer([](QDialog& dialog) {
+  with_dialog(asks, [](QDialog& dialog) {
     dialog.findChild<QSpinBox*>("width_px")->setValue(999);
     QTest::mouseClick(dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Cancel), Qt::LeftButton);
   });
@@ -185,24 +204,22 @@ TEST_F(Files, FilesAreOpenedByTheirDialogAndByDropping) {
 
 // Found by its name, changed and used, by hand; what is saved on the way is a recipe that a run reads.
 TEST_F(Files, ARecipeIsChangedInItsDialog) {
-  QTimer::singleShot(0, window_.get(), [this] {
-    auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
-    ASSERT_NE(dialog, nullptr);
-    keep_dialog(*dialog);
-    QTest::keyClicks(dialog->findChild<QLineEdit*>("words"), "detect.tolerance");
-    auto* box = dialog->findChild<QDoubleSpinBox*>("detect.tolerance_db.box");
+  const auto changes = [this](QDialog& dialog) {
+    keep_dialog(dialog);
+    QTest::keyClicks(dialog.findChild<QLineEdit*>("words"), "detect.tolerance");
+    auto* box = dialog.findChild<QDoubleSpinBox*>("detect.tolerance_db.box");
     ASSERT_NE(box, nullptr);
-    EXPECT_EQ(dialog->findChild<QWidget*>("background.quantile.box"), nullptr) << "only what was looked for";
+    EXPECT_EQ(dialog.findChild<QWidget*>("background.quantile.box"), nullptr) << "only what was looked for";
     box->setFocus();
     box->selectAll();
     QTest::keyClicks(box, "7");
     QTest::keyClick(box, Qt::Key_Return);
     // What is not the default says so, and a button brings the default back.
-    auto* usual = dialog->findChild<QToolButton*>("detect.tolerance_db.default");
+    auto* usual = dialog.findChild<QToolButton*>("detect.tolerance_db.default");
     QApplication::processEvents();
     pump_->queue().drain();
     EXPECT_TRUE(usual->isVisible());
-    keep_dialog(*dialog);
+    keep_dialog(dialog);
     QTest::mouseClick(usual, Qt::LeftButton);
     pump_->queue().drain();
     EXPECT_EQ(box->value(), Recipe{}.detect.tolerance_db);
@@ -211,12 +228,12 @@ TEST_F(Files, ARecipeIsChangedInItsDialog) {
     box->selectAll();
     QTest::keyClicks(box, "7");
     QTest::keyClick(box, Qt::Key_Return);
-    QTest::mouseClick(dialog->findChild<QPushButton*>("save"), Qt::LeftButton);
-    QTest::mouseClick(dialog->findChild<QCheckBox*>("changed"), Qt::LeftButton);
-    EXPECT_NE(dialog->findChild<QDoubleSpinBox*>("detect.tolerance_db.box"), nullptr);
-    QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok), Qt::LeftButton);
-  });
-  trigger("file.recipe");
+    QTest::mouseClick(dialog.findChild<QPushButton*>("save"), Qt::LeftButton);
+    QTest::mouseClick(dialog.findChild<QCheckBox*>("changed"), Qt::LeftButton);
+    EXPECT_NE(dialog.findChild<QDoubleSpinBox*>("detect.tolerance_db.box"), nullptr);
+    QTest::mouseClick(dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok), Qt::LeftButton);
+  };
+  with_dialog([this] { trigger("file.recipe"); }, changes);
   EXPECT_EQ(document().recipe().detect.tolerance_db, 7.0) << told();
   EXPECT_TRUE(document().staged()) << "the survey is there again";
   const auto saved = read_recipe(saved_.string());
@@ -278,6 +295,34 @@ TEST_F(Files, TheMovieOfASchoolIsOnePictureAPing) {
   ASSERT_EQ(files.size(), 1U);
   EXPECT_EQ(files.front().stem(), "movie");
   EXPECT_TRUE(files.front().extension() == ".mp4" || read_png(files.front())) << files.front();
+}
+
+// Without ffmpeg: one line, which says where the movie is and why it is no MP4, and a bar that counts pictures up to all.
+TEST_F(Files, WithoutFfmpegAMovieIsAnAnimatedPngAndItsPicturesAreCounted) {
+  follow_a_school();
+  const fs::path nothing = TestSurvey::easy().fresh();
+  const OtherPath path(nothing);
+  const auto& bar = *window_->statusBar()->findChild<QProgressBar*>();
+  const int pictures = static_cast<int>(masks().size());
+  std::vector<int> counted;
+  const Listening listening(document().changes(), [&](DocumentChange change) {
+    if (change != DocumentChange::progress || document().progress().stage != "movie") return;
+    EXPECT_EQ(document().progress().total, pictures);
+    counted.push_back(static_cast<int>(document().progress().done));
+    EXPECT_EQ(std::pair(bar.value(), bar.maximum()), std::pair(counted.back(), pictures)) << "the bar follows";
+  });
+  const std::size_t before = document().notices().size();
+  find_action(*window_, "export.movie")->trigger();
+  const auto told_of_it = [&] { return document().notices().size() > before; };
+  while (!told_of_it()) QApplication::processEvents(QEventLoop::WaitForMoreEvents);
+  settle();
+  EXPECT_TRUE(std::is_sorted(counted.begin(), counted.end()));
+  EXPECT_GT(counted.size(), 1U) << "it is seen to go on";
+  EXPECT_EQ(document().notices().size(), before + 1) << "one line";
+  const fs::path file = out_ / "movie.png";
+  EXPECT_EQ(told(), "written: " + std::to_string(pictures) + " pictures in " + file.string() +
+                        "; with the program ffmpeg it would be an MP4");
+  EXPECT_EQ(frames_of_animated_png(file), pictures);
 }
 
 TEST_F(Files, APictureOfTheViewInUseIsWhatItShows) {

@@ -44,6 +44,11 @@ std::shared_ptr<const EarlierSchools> earlier_found(const std::filesystem::path&
   return schools ? std::make_shared<const EarlierSchools>(std::move(*schools)) : nullptr;
 }
 
+void hold_earlier(const std::filesystem::path& file, const std::filesystem::path& product) {
+  const auto key = read_product_key(product);
+  if (!file.empty() && key) (void)hold(std::filesystem::path(file).replace_extension(), product, *key);
+}
+
 void keep_detected(const std::filesystem::path& file, const ObservationProduct& product) {
   if (file.empty()) return;
   (void)write_product(product, file, Beside::own_folder);

@@ -27,6 +27,9 @@ namespace sonar {
 [[nodiscard]] std::shared_ptr<const EarlierSchools> earlier_found(const std::filesystem::path& file,
                                                                   const SurveyFiles& survey,
                                                                   const ObservationFiles& observation);
+/// Holds on to a product of another version for earlier_found(), before anybody chooses upon it.
+/// file  detected_file()
+void hold_earlier(const std::filesystem::path& file, const std::filesystem::path& product);
 /// What cannot be kept is looked for again.
 void keep_detected(const std::filesystem::path& file, const ObservationProduct& product);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -9,7 +10,9 @@
 #include <vector>
 
 #include "base/result.h"
+#include "model/product.h"
 #include "pipeline/recipe/recipe.h"
+#include "pipeline/survey/survey.h"
 
 namespace sonar {
 
@@ -43,5 +46,17 @@ struct NamedToOpen {
 /// key  observation_key() of them
 [[nodiscard]] std::filesystem::path product_in(std::span<const std::filesystem::path> work_folders,
                                                const std::string& observation, const std::string& key);
+
+/// What another version of the program found in an observation by itself.
+struct OtherFind {
+  std::filesystem::path file;
+  std::shared_ptr<const ObservationProduct> product;  ///< without background levels
+};
+/// Of runs without decisions, from the same pings on the same grid under the same recipe, so that its masks lie where they
+/// lay; empty where no folder has one.
+/// version  this one's
+[[nodiscard]] std::optional<OtherFind> find_of_another_version(std::span<const std::filesystem::path> work_folders,
+                                                               const ObservationFiles& observation,
+                                                               const Recipe& recipe, const std::string& version);
 
 }  // namespace sonar

@@ -195,12 +195,13 @@ void add_labels(FrameDescription& frame, const VolumeFigure& figure, const Pictu
   if (view.opaque_m) opaque.metres = *view.opaque_m;
   add_context_labels(labels, figure.sector(), volume_surroundings(figure, options), basis(view.camera, size), theme,
                      opaque, taken);
+  const auto move = [&place](PixelPoint& p) { p = {p.x + place.rect.x, p.y + place.rect.y}; };
   for (auto& item : labels.items) {
-    if (auto* text = std::get_if<TextItem>(&item)) {
-      text->at.x += place.rect.x;
-      text->at.y += place.rect.y;
-      frame.items.emplace_back(std::move(*text));
+    if (auto* text = std::get_if<TextItem>(&item)) move(text->at);
+    if (auto* line = std::get_if<PathItem>(&item)) {
+      for (auto& part : line->parts) std::for_each(part.points.begin(), part.points.end(), move);
     }
+    frame.items.emplace_back(std::move(item));
   }
 }
 
@@ -306,7 +307,8 @@ FrameDescription volume_figure_frame(const VolumeFigure& figure, const PictureOp
   if (options.volume.context) add_labels(frame, figure, options, place, view, legend.place, schools);
   add_refused(frame, figure, place, view);
   add_volume_legend(frame, legend, theme);
-  if (const std::string words = nothing_shown(figure, options, view, rays); !words.empty()) {
+  const auto within = [&](const std::string& words) { return elided_line(words, theme.text_px, place.rect.width); };
+  if (const std::string words = within(nothing_shown(figure, options, view, rays)); !words.empty()) {
     const PixelPoint middle{place.rect.x + 0.5 * place.rect.width, place.rect.y + 0.5 * place.rect.height};
     frame.items.emplace_back(
         TextItem{middle, words, theme.text_px, theme.text, TextAnchor::centre, 0.0, false, theme.halo});
@@ -314,7 +316,7 @@ FrameDescription volume_figure_frame(const VolumeFigure& figure, const PictureOp
   if (!figure.mark.empty()) {
     const PixelPoint top{place.rect.x + 0.5 * place.rect.width, place.rect.y + 1.2 * theme.text_px};
     frame.items.emplace_back(
-        TextItem{top, figure.mark, theme.text_px, theme.text, TextAnchor::centre, 0.0, true, theme.halo});
+        TextItem{top, within(figure.mark), theme.text_px, theme.text, TextAnchor::centre, 0.0, true, theme.halo});
   }
   add_colour_bars(frame, figure, options, place, view.masks.data_too);
   std::string line = view_line(figure, options, place, view.masks.data_too);

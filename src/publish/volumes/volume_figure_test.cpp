@@ -130,6 +130,61 @@ TEST(VolumeFigure, NothingLiesOnAnythingInTwoHundredViews) {
   EXPECT_GT(bars, 190);
 }
 
+/// Whether words are others' beginning that ends where a word ends, or all of them.
+bool shortened_well(const std::string& words, const std::string& whole) {
+  if (words == whole) return true;
+  if (!words.ends_with("\u2026")) return false;
+  const std::string kept = words.substr(0, words.size() - 3);
+  return whole.starts_with(kept) && std::string(" ,;:").find(whole[kept.size()]) != std::string::npos;
+}
+
+// Law: from 200 pixels on, under all palettes and in both themes, no words reach over the border, and what has no room is
+// shortened by whole words: the legend's, and the line below the title.
+TEST(VolumeFigure, NoWordsAreCutAtAnyWidth) {
+  VolumeFigure figure = schools_alone(3);
+  figure.mark = "interpolated between pings 3 and 4";
+  PictureOptions options;
+  options.least_text_px = 12.0;
+  const auto legend_at = [&](double width) {
+    return volume_legend(figure, options, {0.0, 0.0, width, 4000.0}, theme_of(options));
+  };
+  const auto second_line = [&](const FrameDescription& frame) {
+    const PixelRect above{0.0, 0.0, 1.0 * options.size.width, volume_place(options)->rect.y};
+    for (const TextItem& text : words_in(frame, above)) {
+      if (text.text.starts_with("noise removed") || text.text.starts_with("as recorded")) return text.text;
+    }
+    return std::string();
+  };
+  options.size = {4000, 500};
+  const std::string whole_line = second_line(frame_of(figure, options));
+  const std::string without_legend = whole_line + "; no room for the legend";
+  const auto whole_legend = legend_at(4000.0);
+  ASSERT_FALSE(whole_line.empty());
+  for (std::size_t palette = 0; palette < colour_map_names().size(); ++palette) {
+    options.display.scale.map = static_cast<ColourMapName>(palette);
+    for (int width = 200; width <= 1000; width += 50) {
+      options.size = {width, 500};
+      options.dark = width % 100 == 0;
+      const FrameDescription frame = frame_of(figure, options);
+      for (const TextItem& text : words_in(frame, {0.0, 0.0, 1.0 * width, 500.0})) {
+        const double wide = text_width_px(text.text.c_str(), text.size_px);
+        const double left = text.anchor == TextAnchor::left     ? text.at.x
+                            : text.anchor == TextAnchor::centre ? text.at.x - wide / 2
+                                                                : text.at.x - wide;
+        EXPECT_GE(left, 0.0) << width << ": " << text.text;
+        EXPECT_LE(left + wide, width) << width << ": " << text.text;
+      }
+      const std::string line = second_line(frame);
+      EXPECT_TRUE(shortened_well(line, whole_line) || shortened_well(line, without_legend)) << width << ": " << line;
+      for (const LegendRow& row : legend_at(volume_place(options)->rect.width)) {
+        EXPECT_TRUE(std::ranges::any_of(whole_legend,
+                                        [&](const LegendRow& all) { return shortened_well(row.words, all.words); }))
+            << width << ": " << row.words;
+      }
+    }
+  }
+}
+
 // The seabed and what the numbers mean stand in the legend; where schools are many their numbers alone are left.
 TEST(VolumeFigure, TheLegendSaysWhichSeabedIsShown) {
   PictureOptions options;

@@ -97,7 +97,8 @@ std::vector<LegendRow> volume_legend(const VolumeFigure& figure, const PictureOp
     }
     rows.insert(rows.end(), schools.begin(), schools.end());
   }
-  for (LegendRow& row : rows) row.words = elided(row.words, theme.text_px, place.width - 3.0 * line_of(theme));
+  for (LegendRow& row : rows) row.words = elided_line(row.words, theme.text_px, place.width - 3.0 * line_of(theme));
+  std::erase_if(rows, [](const LegendRow& row) { return row.words.empty(); });
   return rows;
 }
 

@@ -19,7 +19,7 @@ struct LegendRow {
   bool one_school = false;  ///< its number in the picture says the same
 };
 /// The schools are left out where they are many or have no room: their numbers stand beside them.
-/// place  of the volume in the picture; words that are wider are shortened
+/// place  of the volume in the picture; words that are wider are shortened, see elided_line(), or their row is left out
 [[nodiscard]] std::vector<LegendRow> volume_legend(const VolumeFigure& figure, const PictureOptions& options,
                                                    const PixelRect& place, const Theme& theme);
 

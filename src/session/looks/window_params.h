@@ -26,13 +26,12 @@ template <class Visitor>
 void describe(Visitor& v, WindowParams& p) {
   v.choice("theme", p.theme, kThemeNames,
            "Colours of the window and its pictures: light, dark for night watches, or as the desktop has them.");
-  v.field(
-      "text_size_percent", p.text_size_percent,
-      {.unit = "%",
-       .min = 70,
-       .max = 200,
-       .text =
-           "Size of the text in menus, lists and controls, of the usual one. Text in pictures follows their size."});
+  v.field("text_size_percent", p.text_size_percent,
+          {.unit = "%",
+           .min = 70,
+           .max = 200,
+           .text = "Size of the text in menus, lists and controls, of the usual one; 9 points at least. Text in "
+                   "pictures follows their size."});
   v.field(
       "memory_gb", p.memory_gb,
       {.unit = "GB",

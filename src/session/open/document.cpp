@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -51,6 +52,20 @@ std::set<std::size_t> found_in(const std::vector<std::filesystem::path>& work_fo
     if (!product_in(work_folders, observation.name, key).empty()) found.insert(i);
   }
   return found;
+}
+
+/// What other versions found in the rest.
+std::map<std::size_t, OtherFind> found_by_others(const std::vector<std::filesystem::path>& work_folders,
+                                                 const SurveyFiles& survey, const Recipe& recipe,
+                                                 const std::string& program_version,
+                                                 const std::set<std::size_t>& found) {
+  std::map<std::size_t, OtherFind> others;
+  for (std::size_t i = 0; i < survey.observations.size() && !work_folders.empty(); ++i) {
+    if (found.contains(i)) continue;
+    auto other = find_of_another_version(work_folders, survey.observations[i], recipe, program_version);
+    if (other) others.emplace(i, std::move(*other));
+  }
+  return others;
 }
 
 /// Whether the folder is here that raw files lay in. An empty one may be where a disk is mounted: what is written there is
@@ -181,9 +196,12 @@ void Document::read(Opening what) {
     if (!files->raw_gone.empty() && place) place->notices.push_back(files->raw_gone + " ([file.find_raw])");
     const auto found = files->raw_gone.empty() ? found_in(named->work_folders, *files, recipe, options_.program_version)
                                                : all_with_grid(*files);
+    auto others = files->raw_gone.empty()
+                      ? found_by_others(named->work_folders, *files, recipe, options_.program_version, found)
+                      : std::map<std::size_t, OtherFind>{};
     post(token, [this, asked, opening,
-                 read = SurveyRead{recipe, files, opening->paths, raw_of(*named), named->work_folders, found, place,
-                                   survey->products}] {
+                 read = SurveyRead{recipe, files, opening->paths, raw_of(*named), named->work_folders, found,
+                                   std::move(others), place, survey->products}] {
       if (opening_ != opening) return;  // something else was asked for since
       if (asked == asked_recipe_) asked_recipe_.reset();
       take(read, opening->back_to);

@@ -71,7 +71,8 @@ class Document {
 
   // --- the survey
   /// Reads the survey in the background and then looks at its first observation; what was open is let go. A work folder of
-  /// a run opens the survey that it was made of, under the run's recipe and with the run's schools.
+  /// a run opens the survey that it was made of, under the run's recipe and with the run's schools: those of another version
+  /// as it made them, with its figures as long as nothing but decisions is changed.
   /// first  done before, in the background too: what makes the files, say; empty = nothing
   void open(std::vector<std::filesystem::path> paths, std::function<Result<void>(Work&)> first = {}) {
     recipe_before_.reset();
@@ -193,6 +194,8 @@ class Document {
   [[nodiscard]] EventsPtr found_events(std::size_t observation) const { return survey_->found_events(observation); }
   /// Schools and their figures as far as they are measured; null where the observation is not open.
   [[nodiscard]] ProductPtr product(std::size_t observation) const { return survey_->product(observation); }
+  /// What another version found, which the observation's schools come from; null where they are found by this one.
+  [[nodiscard]] ProductPtr as_made(std::size_t observation) const { return survey_->as_made(observation); }
 
   /// Numbers of schools in the survey as its results last had them. Others follow in the order of observations, and are
   /// known when all are measured.

@@ -70,7 +70,8 @@ void OpenSurvey::await_schools() {
   for (std::size_t i = 0; i < read_.files->observations.size(); ++i) {
     const ObservationFiles& observation = read_.files->observations[i];
     if (!observation.grid) continue;
-    if (read_.found.contains(i) || asks_for_detection(lines, datagram_times(*read_.files, observation))) {
+    if (read_.found.contains(i) || read_.others.contains(i) ||
+        asks_for_detection(lines, datagram_times(*read_.files, observation))) {
       undetected_.push_back(i);
     } else {
       ++lacking;
@@ -103,7 +104,7 @@ OpenSurvey::AtWork& OpenSurvey::opened(std::size_t index) {
 void OpenSurvey::replay_journal() {
   for (const std::size_t index : std::exchange(unreplayed_, {})) choices_thread_->open(open_.at(index).chosen_on);
   // Another survey that is being read would be given up for it.
-  if (!undetected_.empty() && !document_.opening()) detect(std::exchange(undetected_, {}));
+  if (!undetected_.empty() && !document_.opening()) detect(std::exchange(undetected_, {}), true);
 }
 
 void OpenSurvey::go_on() {

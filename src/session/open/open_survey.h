@@ -22,6 +22,7 @@
 #include "pipeline/recipe/recipe.h"
 #include "pipeline/survey/survey.h"
 #include "pipeline/tasks/survey_numbers.h"
+#include "pipeline/tasks/work_folders.h"
 #include "session/change_queue.h"
 #include "session/looks/choices.h"
 #include "session/open/open_observation.h"
@@ -56,7 +57,8 @@ struct SurveyRead {
   std::vector<std::filesystem::path> named{};         ///< what Document::open() was given
   std::vector<std::filesystem::path> paths{};         ///< the raw files of those, and folders of them
   std::vector<std::filesystem::path> work_folders{};  ///< of runs, in which schools were found before
-  std::set<std::size_t> found{};  ///< observations whose schools those have as detect() would find them
+  std::set<std::size_t> found{};              ///< observations whose schools those have as detect() would find them
+  std::map<std::size_t, OtherFind> others{};  ///< observations whose schools those have of another version
   Result<JournalPlace> place = JournalPlace{};
   /// [observation] of results whose raw files are not here (SurveyFiles::raw_gone); empty = pings can be read.
   std::vector<ProductPtr> products{};
@@ -94,7 +96,8 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
   void stop_propagation();
   [[nodiscard]] const JournalState& state(std::size_t observation) const;
   [[nodiscard]] bool busy() const { return choices_thread_ && choices_thread_->busy(); }
-  void detect(std::vector<std::size_t> observations);
+  /// as_made  shows what another version found as it is
+  void detect(std::vector<std::size_t> observations, bool as_made = false);
   void take_schools(std::size_t observation, const ObservationProduct& found);
   [[nodiscard]] bool detected(std::size_t observation) const;
   [[nodiscard]] bool asks_for_schools(std::size_t observation) const;
@@ -102,6 +105,7 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
   [[nodiscard]] RefusedPtr refused(std::size_t observation) const;
   [[nodiscard]] EventsPtr found_events(std::size_t observation) const;
   [[nodiscard]] ProductPtr product(std::size_t observation) const;
+  [[nodiscard]] ProductPtr as_made(std::size_t observation) const;
   [[nodiscard]] bool all_measured() const;
   [[nodiscard]] const std::string& unmeasured() const;
   void keep_survey_numbers(std::vector<SurveyNumber> numbers);
@@ -117,6 +121,7 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
     std::vector<RefusedEcho> refused;
     std::shared_ptr<const EarlierSchools> earlier;  ///< see earlier_found()
     EventsPtr events;
+    ProductPtr as_made;  ///< by another version; null = by this one
   };
   /// schools  detected_schools() or decided_schools() of it
   [[nodiscard]] static Found found_in(const ObservationProduct& product, std::vector<SchoolMasks> schools,
@@ -145,6 +150,7 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
     std::optional<std::vector<RefusedEcho>> found_refused;  ///< as detection told them; none = it was not looked for
     RefusedPtr refused;                                     ///< those of them that are no school now
     EventsPtr found_events;                                 ///< as detection noted them; null = it was not looked for
+    ProductPtr as_made;  ///< what another version found there, which is shown; null = this one's find
   };
 
   void tell(DocumentChange change);
@@ -157,8 +163,9 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
   void take_step(std::size_t observation, std::int64_t ping_index, const PingMask& mask);
   AtWork& opened(std::size_t index);
   void take_ping(const Result<StagedPingPtr>& staged);
-  void detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index,
+  void detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index, bool as_made,
                   const std::shared_ptr<JournalStep>& step, Work& work, const CancelToken& token);
+  void tell_as_made(const std::vector<std::size_t>& observations);
   void take_detected(std::size_t index, Found found, const std::shared_ptr<JournalStep>& step);
   void follow_refused(const ChoicesShown& before);
   void look_at_others();
@@ -170,8 +177,8 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
   void measure(std::size_t index);
   [[nodiscard]] Result<void> measure_behind(const OpenObservationPtr& observation, const JournalState& state,
                                             const std::vector<JournalLine>& lines, const RefusedPtr& refused,
-                                            const EventsPtr& events, KeptMeasures& kept, std::uint64_t memory_bytes,
-                                            const CancelToken& token, Work& work);
+                                            const EventsPtr& events, const ProductPtr& as_made, KeptMeasures& kept,
+                                            std::uint64_t memory_bytes, const CancelToken& token, Work& work);
   [[nodiscard]] std::string key_of(OpenObservation& observation) const;
   void keep_measures();
   [[nodiscard]] std::vector<IndexCache> kept_in() const;

@@ -7,10 +7,23 @@
 #include "session/open/document.h"
 
 namespace sonar {
+namespace {
+
+/// Whether figures of other masks are needed: those of two versions never stand in one table.
+bool all_known(const ObservationProduct& known, const ObservationProduct& as_made) {
+  return known.masks.size() == as_made.masks.size() && known.school_pings.size() == as_made.school_pings.size();
+}
+
+}  // namespace
 
 ProductPtr OpenSurvey::product(std::size_t observation) const {
   const auto found = open_.find(observation);
   return found == open_.end() ? nullptr : found->second.product;
+}
+
+ProductPtr OpenSurvey::as_made(std::size_t observation) const {
+  const auto found = open_.find(observation);
+  return found == open_.end() ? nullptr : found->second.as_made;
 }
 
 bool OpenSurvey::all_measured() const {
@@ -53,11 +66,11 @@ void OpenSurvey::measure(std::size_t index) {
                                                                      std::int64_t) mutable { give_way(); });
   const CancelToken posted =
       measures_.post([this, observation = at->second.open, state, lines = choices_.lines, work, kept = at->second.kept,
-                      refused = refused(index), events = found_events(index),
+                      refused = refused(index), events = found_events(index), as_made = at->second.as_made,
                       memory = document_.options().memory_bytes](const CancelToken& token) {
         const auto measured = within_memory([&]() -> Result<void> {
           if (token.cancelled()) return {};
-          return measure_behind(observation, *state, *lines, refused, events, *kept, memory, token, *work);
+          return measure_behind(observation, *state, *lines, refused, events, as_made, *kept, memory, token, *work);
         });
         if (!measured && measured.error().code != ErrorCode::cancelled) {
           post(token, [this, index = observation->index(), line = to_line(measured.error())] {
@@ -71,13 +84,19 @@ void OpenSurvey::measure(std::size_t index) {
 
 Result<void> OpenSurvey::measure_behind(const OpenObservationPtr& observation, const JournalState& state,
                                         const std::vector<JournalLine>& lines, const RefusedPtr& refused,
-                                        const EventsPtr& events, KeptMeasures& kept, std::uint64_t memory_bytes,
-                                        const CancelToken& token, Work& work) {
-  if (!observation->survey().raw_gone.empty()) {
-    const auto known = state_product_of_results(observation->engine(), state, *read_.products[observation->index()]);
-    auto shared = std::make_shared<const ObservationProduct>(known);
+                                        const EventsPtr& events, const ProductPtr& as_made, KeptMeasures& kept,
+                                        std::uint64_t memory_bytes, const CancelToken& token, Work& work) {
+  const auto take = [&](ObservationProduct product) {
+    auto shared = std::make_shared<const ObservationProduct>(std::move(product));
     post(token, [this, index = observation->index(), shared] { take_product(index, shared); });
-    return {};
+    return Result<void>{};
+  };
+  if (!observation->survey().raw_gone.empty()) {
+    return take(state_product_of_results(observation->engine(), state, *read_.products[observation->index()]));
+  }
+  if (as_made && as_made->pings.size() == observation->files().pings.size()) {
+    auto known = state_product_of_results(observation->engine(), state, *as_made);
+    if (all_known(known, *as_made)) return take(std::move(known));
   }
   GivesWay give_way(document_.right_of_way());
   if (!kept.read) {
@@ -102,9 +121,7 @@ Result<void> OpenSurvey::measure_behind(const OpenObservationPtr& observation, c
       state_product(observation->engine(), state,
                     {effective, document_.options().program_version, false, &kept.measured, *refused, *events}, work);
   if (!product) return pass_on(product);
-  auto shared = std::make_shared<const ObservationProduct>(std::move(*product));
-  post(token, [this, index = observation->index(), shared] { take_product(index, shared); });
-  return {};
+  return take(std::move(*product));
 }
 
 /// Figures of choices before would pass for those of now.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Schools and refused echoes that are found, for choices to be laid upon.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "base/number_text.h"
@@ -20,20 +23,21 @@ std::string key_of_find(const SurveyFiles& survey, const ObservationFiles& obser
   return observation_key(survey, observation, recipe, {{}, {}, program_version});
 }
 
-void OpenSurvey::detect(std::vector<std::size_t> observations) {
+void OpenSurvey::detect(std::vector<std::size_t> observations, bool as_made) {
   if (!read_.files) return;
   const auto step = observations.size() > 1 ? std::make_shared<JournalStep>() : nullptr;
-  document_.run(
-      [this, survey = read_.files, observations = std::move(observations), step](Work& work, const CancelToken& token) {
-        for (const std::size_t index : observations) {
-          if (work.cancelled() || token.cancelled() || index >= survey->observations.size()) break;
-          detect_one(survey, index, step, work, token);
-        }
-        if (!work.cancelled()) return;
-        post({}, [this, survey, observations] {
-          if (survey == read_.files) tell_lacking(observations);
-        });
-      });
+  document_.run([this, survey = read_.files, observations = std::move(observations), as_made, step](
+                    Work& work, const CancelToken& token) {
+    for (const std::size_t index : observations) {
+      if (work.cancelled() || token.cancelled() || index >= survey->observations.size()) break;
+      detect_one(survey, index, as_made, step, work, token);
+    }
+    if (as_made) post(token, [this, observations] { tell_as_made(observations); });
+    if (!work.cancelled()) return;
+    post({}, [this, survey, observations] {
+      if (survey == read_.files) tell_lacking(observations);
+    });
+  });
 }
 
 bool OpenSurvey::asks_for_schools(std::size_t observation) const {
@@ -56,7 +60,22 @@ void OpenSurvey::tell_lacking(const std::vector<std::size_t>& observations) {
                   count_of(static_cast<std::size_t>(lacking), "observation")));
 }
 
-void OpenSurvey::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index,
+void OpenSurvey::tell_as_made(const std::vector<std::size_t>& observations) {
+  std::set<std::string> versions;
+  std::size_t count = 0;
+  for (const std::size_t index : observations) {
+    const ProductPtr made = as_made(index);
+    if (!made) continue;
+    ++count;
+    versions.insert(made->program_version);
+  }
+  if (count == 0) return;
+  tell(fmt::format(
+      "{}: the schools of {} are shown as version {} made them; [schools.detect_all] detects them by this version",
+      read_.work_folders.front().string(), count_of(count, "observation"), fmt::join(versions, ", ")));
+}
+
+void OpenSurvey::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index, bool as_made,
                             const std::shared_ptr<JournalStep>& step, Work& work, const CancelToken& token) {
   const ObservationFiles& observation = survey->observations[index];
   if (!observation.grid) return;
@@ -92,6 +111,15 @@ void OpenSurvey::detect_one(const std::shared_ptr<const SurveyFiles>& survey, st
     take(*of_run);
     return keep_detected(files.front(), *of_run);
   }
+  if (const auto other = read_.others.find(index); as_made && other != read_.others.end()) {
+    // It is this version's find under no key: what is kept of it is for choices upon it alone.
+    hold_earlier(files.front(), other->second.file);
+    auto found = found_in(*other->second.product, detected_schools(*other->second.product), earlier);
+    found.as_made = other->second.product;
+    return post(token, [this, survey, index, step, found = std::move(found)] {
+      if (survey == read_.files) take_detected(index, found, step);
+    });
+  }
   auto product = observe(*survey, observation, recipe, observe_options, work);
   if (!product) {
     if (product.error().code == ErrorCode::cancelled) return;
@@ -104,7 +132,7 @@ void OpenSurvey::detect_one(const std::shared_ptr<const SurveyFiles>& survey, st
 OpenSurvey::Found OpenSurvey::found_in(const ObservationProduct& product, std::vector<SchoolMasks> schools,
                                        std::shared_ptr<const EarlierSchools> earlier) {
   auto events = std::make_shared<const std::vector<PlacedEvent>>(placed_events(noted_events(product), schools));
-  return {std::move(schools), product.rejected, std::move(earlier), std::move(events)};
+  return {std::move(schools), product.rejected, std::move(earlier), std::move(events), nullptr};
 }
 
 void OpenSurvey::take_detected(std::size_t index, Found found, const std::shared_ptr<JournalStep>& step) {
@@ -114,6 +142,7 @@ void OpenSurvey::take_detected(std::size_t index, Found found, const std::shared
   choices_thread_->open(at.chosen_on, std::move(found.schools), std::move(found.earlier));
   at.found_refused = std::move(found.refused);
   at.found_events = std::move(found.events);
+  at.as_made = std::move(found.as_made);
   if (!asks_for_detection(effective_lines(*choices_.lines), at.open->context().times)) {
     act(index, 0, DetectCommand{number}, step);
   }

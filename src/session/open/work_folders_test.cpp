@@ -5,11 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 
 #include "pipeline/journal/session_recipe.h"
 #include "pipeline/stages/detected_cache.h"
+#include "session/pictures/exports.h"
 #include "session/test_app.h"
 #include "session/test_run.h"
 
@@ -106,15 +108,83 @@ TEST_F(WorkFolders, OpenUnderTheRecipeOfTheRunWhichIsKeptBesideTheJournal) {
   EXPECT_THAT(document().notices(), Each(Not(HasSubstr("recipe")))) << "it is told once";
 }
 
-TEST_F(WorkFolders, OfAnotherVersionOpenTheirSurveyAndALineSaysToDetectAgain) {
+TEST_F(WorkFolders, OfAnotherVersionAreShownAsTheyAreAndALineSaysWhoMadeThem) {
+  cache_.folder = TestSurvey::easy().fresh();
+  const std::size_t left = with_one_school_fewer();
+  const auto says_who = Contains(
+      AllOf(HasSubstr(out_.string()), HasSubstr("2 observations"), HasSubstr("version test"), HasSubstr("Ctrl+D")));
   open({out_}, "another");
-  ASSERT_TRUE(document().staged());
-  EXPECT_FALSE(document().detected(0) || document().detected(1));
-  EXPECT_THAT(document().notices(),
-              Contains(AllOf(HasSubstr(out_.string()), HasSubstr("2 observations"), HasSubstr("Ctrl+D"))));
+  ASSERT_TRUE(document().staged()) << "with pings";
+  EXPECT_TRUE(document().detected(0) && document().detected(1));
+  EXPECT_EQ(schools(0), 2U);
+  EXPECT_EQ(schools(1), left) << "those of the file, not those that a detection would find";
+  EXPECT_THAT(document().notices(), says_who);
+  ASSERT_TRUE(document().product(0));
+  const ObservationProduct was = product_of(0);
+  EXPECT_EQ(document().product(0)->program_version, "test");
+  EXPECT_EQ(document().product(0)->input_hash, "") << "it is no find of this version";
+  EXPECT_EQ(document().product(0)->school_pings.size(), was.school_pings.size());
+  EXPECT_EQ(document().product(0)->schools.at(0).backscatter_m2, was.schools.at(0).backscatter_m2);
   press("schools.detect_all");
   document().settle();
-  EXPECT_EQ(schools(0), 2U);
+  EXPECT_GT(schools(1), left) << "what is found now";
+  EXPECT_EQ(document().product(0)->program_version, "another");
+  EXPECT_EQ(product_of(1).schools.size(), left) << "the results are not written over";
+  open({out_}, "another");
+  EXPECT_GT(schools(1), left) << "the own find goes before";
+  EXPECT_THAT(document().notices(), Not(says_who));
+}
+
+// Masks of the other version lie a little farther out: a decision upon one holds when schools are found anew, and what a
+// human changes is measured by the version that is there.
+TEST_F(WorkFolders, OfAnotherVersionAreDecidedUponAndChanged) {
+  constexpr int kFarther = 3;
+  cache_.folder = TestSurvey::easy().fresh();
+  ObservationProduct made = product_of(0);
+  for (SchoolMask& mask : made.masks) {
+    for (sonar::Run& run : mask.mask.runs) run.first_sample += kFarther;
+  }
+  keep_detected(product_path(out_, made.observation), made);
+  open({out_}, "another");
+  ASSERT_TRUE(document().as_made(0));
+  EXPECT_EQ(document().product(0)->masks.front().mask, made.masks.front().mask);
+  Decision decision;
+  decision.species = "herring";
+  decide_on(workspace(), {survey_schools(document()).front()}, decision);
+  document().settle();
+  EXPECT_EQ(document().product(0)->schools.front().species, "herring");
+  EXPECT_EQ(document().product(0)->program_version, "test") << "a decision moves no mask";
+  paint(2, 4, 5, 5, 200);
+  document().settle();
+  EXPECT_EQ(document().product(0)->program_version, "another") << "figures of two versions stand in no table";
+  EXPECT_THAT(document().product(0)->school_pings, testing::SizeIs(testing::Gt(made.school_pings.size())));
+  const fs::path written = TestSurvey::easy().fresh() / "written";
+  export_results(workspace(), written);
+  document().settle();
+  EXPECT_TRUE(kept_detected(product_path(written, made.observation), "")) << "under no key of a find";
+  press("schools.detect_all");
+  document().settle();
+  EXPECT_EQ(document().as_made(0), nullptr);
+  const auto is_herring = [](const auto& school) { return school->masks.decided.species == "herring"; };
+  EXPECT_EQ(std::ranges::count_if(document().state(0).schools, is_herring), 1);
+}
+
+// What was found in other pings, or under a recipe that was not asked for, says nothing of these.
+TEST_F(WorkFolders, OfAnotherVersionAndOtherPingsAreNotShown) {
+  ObservationProduct other = product_of(0);
+  for (PingNavigation& ping : other.pings) ping.time += kSecondNs;
+  keep_detected(product_path(out_, other.observation), other);
+  open({out_}, "another");
+  EXPECT_FALSE(document().detected(0));
+  EXPECT_TRUE(document().detected(1));
+  EXPECT_THAT(document().notices(), Contains(HasSubstr("the schools of 1 observation are not those of this version")));
+  EXPECT_THAT(document().notices(), Contains(HasSubstr("the schools of 1 observation are shown as version test")));
+  Recipe recipe;
+  recipe.detect.tolerance_db = 7.0;
+  document().use_recipe(recipe);
+  document().open({out_});
+  document().settle();
+  EXPECT_EQ(document().as_made(1), nullptr);
 }
 
 TEST_F(WorkFolders, BesideTheirRawFilesGiveTheirSchoolsWhereverThoseLieNow) {

@@ -2,9 +2,9 @@
 #include "session/slices/slice_build.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -14,6 +14,7 @@
 #include "publish/reports/sample_looks.h"
 #include "session/looks/screen_theme.h"
 #include "view/label_room.h"
+#include "view/school_labels.h"
 #include "view/shapes.h"
 #include "view/slices/slice_cuts.h"
 
@@ -83,7 +84,7 @@ void take_what_is_there(LabelRoom& room, const SlicePicture& picture, const Slic
   room.take({picture.plot.place.x + ship.x - 0.5 * size, picture.plot.place.y + ship.y - 0.5 * size, size, size});
 }
 
-/// The selected school's name beside what the slice shows of it; nothing where there is no room for it.
+/// The selected school's name beside what the slice shows of it, or its number.
 void name_selected(SlicePicture& picture, const SliceWish& wish, const Theme& theme) {
   for (const SchoolLayer& school : wish.layers) {
     if (!school.selected || !school.layer.mask) continue;
@@ -91,23 +92,10 @@ void name_selected(SlicePicture& picture, const SliceWish& wish, const Theme& th
     if (!shown) continue;
     LabelRoom room(picture.plot.place);
     take_what_is_there(room, picture, wish, theme);
-    room.take(*shown);
     TextItem name = text_item({}, school.title, theme.text_px, theme.text, TextAnchor::centre);
     name.bold = true;
     name.halo = theme.halo;
-    const PixelRect box = LabelRoom::box_of(name);
-    const PixelPoint middle{shown->x + 0.5 * shown->width, shown->y + 0.5 * shown->height};
-    const double aside = 0.5 * (shown->width + box.width) + 0.4 * theme.text_px;
-    const double over = 0.5 * (shown->height + box.height) + 0.2 * theme.text_px;
-    const std::array<PixelPoint, 8> places{{{middle.x + aside, middle.y},
-                                            {middle.x - aside, middle.y},
-                                            {middle.x, middle.y + over},
-                                            {middle.x, middle.y - over},
-                                            {middle.x + aside, middle.y + over},
-                                            {middle.x + aside, middle.y - over},
-                                            {middle.x - aside, middle.y + over},
-                                            {middle.x - aside, middle.y - over}}};
-    if (auto placed = room.place(name, places)) picture.frame.items.emplace_back(std::move(*placed));
+    add_selected_name(picture.frame, room, std::move(name), std::to_string(school.number), *shown, theme);
     return;
   }
 }

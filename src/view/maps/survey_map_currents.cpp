@@ -154,8 +154,8 @@ std::string add_currents(const SurveyMapDrawing& d, const CurrentProfiles& profi
     told.push_back(fmt::format("{:.0f}", unit.of(depths[k])));
     // Not the first: there stands the observation's name.
     const PixelPoint& end = ends[ends.size() / 2];
-    TextItem name = text_item({end.x, end.y - 0.5 * d.em}, fmt::format("{} {}", told.back(), unit.name), 0.8 * d.em,
-                              colour, TextAnchor::centre);
+    TextItem name = text_item({end.x, end.y - 0.5 * d.em}, fmt::format("{} {}", told.back(), unit.name),
+                              small_text_px(d.theme, 0.8), colour, TextAnchor::centre);
     name.halo = d.theme.halo;
     d.frame.items.emplace_back(std::move(name));
   }

@@ -161,7 +161,7 @@ StartNames start_names(const SurveyMapDrawing& d, std::span<const ObservationPro
   for (const ObservationProduct& product : observations) {
     const auto at = start_on_map(d, product);
     if (!at) continue;
-    TextItem name = text_item(*at, product.observation, 0.9 * d.em, d.theme.text);
+    TextItem name = text_item(*at, product.observation, small_text_px(d.theme, 0.9), d.theme.text);
     name.halo = d.theme.halo;
     // A start at the map's edge still has its name in the map.
     const double low = d.map.place.y + 0.8 * d.em;

@@ -40,7 +40,7 @@ class Legend {
   }
   /// A note that has no room for all of its lines is left out.
   void small(const std::string& words) {
-    const double size = 0.82 * d_.em;
+    const double size = small_text_px(d_.theme, 0.82);
     const std::vector<std::string> lines = wrapped(words, place_.width, size);
     if (y_ + 1.25 * size * (static_cast<double>(lines.size()) - 0.5) > place_.y + place_.height) return;
     for (const std::string& line : lines) {

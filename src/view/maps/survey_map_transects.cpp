@@ -74,8 +74,8 @@ std::vector<TextItem> transect_names(const SurveyMapDrawing& d, std::span<const 
   for (const Transect& one : style.transects) {
     const auto at = one.type == EffortType::transect ? middle_of(d, observations, one) : std::nullopt;
     if (!at) continue;
-    names.push_back(
-        text_item({at->x + kBeside_em * d.em, at->y}, one.name, 0.9 * d.em, d.theme.text, TextAnchor::left));
+    names.push_back(text_item({at->x + kBeside_em * d.em, at->y}, one.name, small_text_px(d.theme, 0.9), d.theme.text,
+                              TextAnchor::left));
     names.back().halo = d.theme.halo;
   }
   return names;

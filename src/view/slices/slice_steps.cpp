@@ -158,10 +158,11 @@ class Page {
                                em(), step.off ? theme_.muted : theme_.text);
     title.bold = !step.off;
     out_.frame.items.emplace_back(std::move(title));
+    const double size = small_text_px(theme_, kSmall);
     for (std::size_t i = 0; i < std::min(lines, step.words.size()); ++i) {
       const double y = place.place.y + (kName_em + (static_cast<double>(i) + 0.5) * kWords_em) * em();
       out_.frame.items.emplace_back(
-          text_item({place.place.x, y}, elided(step.words[i], kSmall * em(), width), kSmall * em(), theme_.muted));
+          text_item({place.place.x, y}, elided(step.words[i], size, width), size, theme_.muted));
     }
   }
 

@@ -109,8 +109,15 @@ void add_outlines(FrameDescription& frame, const Strip& strip, const PlotFrame& 
     }
     TrackNumber number{fmt::format("{}", school.school_id), selected, {}};
     for (const OutlinedColumn& column : columns) {
-      const PixelPoint top{(column.from + column.to) / 2.0, column.stretches.front().first};
-      if (inside(plot.place, top)) number.seen.push_back(top);
+      // Zoomed, a school may begin above or beside what is seen of it.
+      const double middle = (column.from + column.to) / 2.0;
+      const double x = std::clamp(middle, plot.place.x, plot.place.x + plot.place.width);
+      for (const auto& [from, to] : column.stretches) {
+        const PixelPoint top{x, std::max(from, plot.place.y)};
+        if (to < plot.place.y || !inside(plot.place, top)) continue;
+        number.seen.push_back(top);
+        break;
+      }
     }
     if (!number.seen.empty()) numbers.push_back(std::move(number));
   }

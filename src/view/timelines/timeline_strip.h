@@ -73,7 +73,7 @@ void add_outlines(FrameDescription& frame, const Strip& strip, const PlotFrame& 
 /// Stripes where schools cast shadow on an echogram, as slices have them.
 void add_shadow(FrameDescription& frame, const Strip& strip, const PlotFrame& plot, const Theme& theme);
 /// Numbers at their tracks' first pings, else at other places along them, none on another; those that find no room are
-/// left out.
+/// left out, but for the selected school's.
 void add_track_numbers(FrameDescription& frame, std::span<const TrackNumber> numbers, const PlotFrame& plot,
                        const Theme& theme);
 /// A school's colour on a timeline: its own, or that of its status.

@@ -70,7 +70,8 @@ void add_track_numbers(FrameDescription& frame, std::span<const TrackNumber> num
   for (const bool selected : {true, false}) {
     for (const TrackNumber& number : numbers) {
       if (number.selected != selected) continue;
-      TextItem item = text_item({}, number.text, 0.85 * em, selected ? theme.accent : theme.text, TextAnchor::left);
+      TextItem item = text_item({}, number.text, small_text_px(theme, 0.85), selected ? theme.accent : theme.text,
+                                TextAnchor::left);
       item.bold = true;
       item.halo = theme.halo;
       const double width = text_width_px(item.text.c_str(), item.size_px);
@@ -81,7 +82,10 @@ void add_track_numbers(FrameDescription& frame, std::span<const TrackNumber> num
         where.push_back({p.x - width - 0.5 * em, p.y});
         where.push_back({p.x + 0.5 * em, p.y});
       }
-      if (auto placed = room.place(std::move(item), where)) frame.items.emplace_back(std::move(*placed));
+      item.at = where.front();
+      auto placed = room.place(item, where);
+      if (!placed && selected) placed = room.force(std::move(item));
+      if (placed) frame.items.emplace_back(std::move(*placed));
     }
   }
 }

@@ -11,6 +11,7 @@
 
 #include "geo/geodesic.h"
 #include "view/label_room.h"
+#include "view/school_labels.h"
 #include "view/volume/context_layout.h"
 #include "view/volume/context_scene.h"
 
@@ -60,25 +61,17 @@ class ContextLabels {
 
   /// Whether the picture is so small that labels would cover what they name.
   [[nodiscard]] bool small() const { return frame_->size.width < kSmall_em * theme_->text_px; }
-  /// A school's name beside the school.
+  /// A school's name beside the school; that of the selected one, whose box is not kept off yet, is always there.
   void name(const SchoolPlace& school, const PixelRect& box) {
     const auto middle = camera_->project(school.middle);
-    if (!middle || hidden(school.middle, middle->pixel)) return;
-    const double em = theme_->text_px;
-    TextItem label{middle->pixel, school.name,     em,          theme_->text, TextAnchor::centre,
-                   0.0,           school.selected, theme_->halo};
-    const PixelRect own = LabelRoom::box_of(label);
-    const double right = 0.5 * (box.width + own.width) + 0.3 * em;
-    const double down = 0.5 * (box.height + own.height) + 0.15 * em;
-    const PixelPoint c{box.x + 0.5 * box.width, box.y + 0.5 * box.height};
-    const std::array<PixelPoint, 8> places{{{c.x + right, c.y},
-                                            {c.x - right, c.y},
-                                            {c.x, c.y - down},
-                                            {c.x, c.y + down},
-                                            {c.x + right, c.y - down},
-                                            {c.x - right, c.y - down},
-                                            {c.x + right, c.y + down},
-                                            {c.x - right, c.y + down}}};
+    if (middle ? hidden(school.middle, middle->pixel) : !school.selected) return;
+    TextItem label{{},  school.name,     theme_->text_px, theme_->text, TextAnchor::centre,
+                   0.0, school.selected, theme_->halo};
+    if (school.selected) {
+      const std::string number = school.name.substr(0, school.name.find(':'));
+      return add_selected_name(*frame_, room_, std::move(label), number, box, *theme_);
+    }
+    const auto places = places_beside(box, label);
     if (auto placed = room_.place(std::move(label), places)) frame_->items.emplace_back(std::move(*placed));
   }
 
@@ -138,13 +131,14 @@ void label_schools(ContextLabels& labels, const std::vector<SchoolPlace>& school
   for (const SchoolPlace& school : schools) {
     const auto box = school_box(school, camera);
     if (!box) continue;
-    labels.keep_off(*box);
+    if (!school.selected) labels.keep_off(*box);
     seen.emplace_back(&school, *box);
   }
   // The selected one has the first choice.
   std::stable_partition(seen.begin(), seen.end(), [](const auto& one) { return one.first->selected; });
   for (const auto& [school, box] : seen) {
     if (!school->name.empty()) labels.name(*school, box);
+    if (school->selected) labels.keep_off(box);
   }
 }
 
