@@ -27,10 +27,10 @@ struct BeamShape {
   double handicap = 0.0;          ///< log-likelihood by which it must outdo a shape that has none
 };
 
-/// The shapes of beam to choose among. A wider transmit beam is taken to be wide along the fan, as of a sonar that sends
-/// for all beams of a fan at once. Where the area is smaller than that makes it, it is so wide either as the area says, or
-/// it is that wide and narrower upright, as of an array that is shaded for receiving alone: schools' heights tell. Or
-/// it is wider both ways alike, where they say so clearly: the area is one number.
+/// The shapes of beam to choose among. A wider transmit beam is taken to be sent all along the fan, as of a sonar that sends
+/// for all beams of a fan at once; where the area is smaller than that makes it, it is narrower upright, as of an array that
+/// is shaded for receiving alone. Or it is wider both ways alike, where schools' heights say so clearly: they hardly tell a
+/// narrow beam and a high body from a wide beam and a low one.
 /// area  two_way_area()'s
 [[nodiscard]] std::vector<BeamShape> beam_shapes(const MeasureParams& params, double area);
 
