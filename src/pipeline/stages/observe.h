@@ -22,7 +22,7 @@ namespace sonar {
 /// are not merged.
 inline constexpr std::string_view kStageVersions =
     "decode 3, flags 4, calibrate 1, background 4, median 1, seabed 7, detect 16, track 11, propagate 5, measure 21, "
-    "summarise 8";
+    "summarise 9";
 
 /// Inclusive range of ping indices.
 struct PingSelection {
