@@ -62,7 +62,7 @@ TEST(LeastText, NoTextOfAMapIsSmaller) {
   add_school(survey[0], 1, destination(survey[0].pings[30].transducer, 60.0, 270.0), 30, 31, block(2, 1, 2, 25, 5));
   SurveyMapStyle style;
   style.transects = {{"T1", "north", EffortType::transect, survey[0].pings[5].time, survey[0].pings[50].time}};
-  for (const PixelSize size : {PixelSize{420, 320}, PixelSize{1000, 760}}) {
+  for (const PixelSize size : {PixelSize{640, 480}, PixelSize{1000, 760}}) {
     const std::string what = std::to_string(size.width) + " x " + std::to_string(size.height);
     const auto map = survey_map(survey, {}, nullptr, style, size, with_text(light_theme(size), kLeast_px));
     ASSERT_TRUE(map) << to_line(map.error());

@@ -139,7 +139,9 @@ TEST_F(VolumeAtWork, BetweenPingsSvIsInterpolatedAndMarkedAndPointersFindNothing
       if (const auto* text = std::get_if<TextItem>(&item)) words.insert(text->text);
     }
   }));
-  EXPECT_TRUE(words.contains("interpolated between pings 0 and 1"));
+  EXPECT_TRUE(std::ranges::any_of(words, [](const std::string& text) {
+    return text.starts_with("interpolated between");
+  })) << "shortened by whole words in so small a picture";
   workspace_.motion.set({});
   settle();
   EXPECT_EQ(model_->image(), measured);
