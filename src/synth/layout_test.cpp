@@ -12,6 +12,18 @@
 namespace sonar::synth {
 namespace {
 
+/// Of a line's receive pattern of this width times the pattern that sends, as many times narrower in angle as `sending`: its
+/// integral over the angle. No lambda: g++ would sum it while it compiles, for half a minute.
+double two_way_integral_rad(double width_deg, double sending) {
+  constexpr double kStep = 1e-3;
+  double sum = 0.0;
+  for (double x = kStep / 2.0; x < 400.0; x += kStep) {
+    sum += std::pow(std::sin(x) / x, 2) * std::pow(std::sin(sending * x) / (sending * x), 2) * kStep;
+  }
+  // (sin x / x)^2 is a half at x = 1.39156, which is half the width.
+  return 2.0 * sum * rad_from_deg(width_deg) / 2.0 / 1.39156;
+}
+
 TEST(Layout, RowsFollowAGridThatCrossesTheLimitOf180Degrees) {
   std::vector<Beam> beams;
   for (const double elevation_deg : {-20.0, -10.0}) {
@@ -39,19 +51,10 @@ TEST(Layout, BeamsThatSendWideHaveTheBeamAngleOfTheirPattern) {
   beam.psi_db = -20.0;
   EXPECT_EQ(sounding_beams({beam}, BeamPattern::gaussian).front().psi_db, -20.0);
   EXPECT_EQ(sounding_beams({beam}, BeamPattern::uniform_line).front().psi_db, -20.0);
-  // (sin x / x)^2 is a half at x = 1.39156, which is half the width.
-  const auto integral_rad = [](double width_deg, double sending) {
-    constexpr double kStep = 1e-3;
-    double sum = 0.0;
-    for (double x = kStep / 2.0; x < 400.0; x += kStep) {
-      sum += std::pow(std::sin(x) / x, 2) * std::pow(std::sin(sending * x) / (sending * x), 2) * kStep;
-    }
-    return 2.0 * sum * rad_from_deg(width_deg) / 2.0 / 1.39156;
-  };
   EXPECT_NEAR(sounding_beams({beam}, BeamPattern::wide_transmit).front().psi_db,
-              db_from_linear(integral_rad(6.0, 1.0 / 3.0) * integral_rad(3.0, 1.0 / 3.0)), 0.01);
+              db_from_linear(two_way_integral_rad(6.0, 1.0 / 3.0) * two_way_integral_rad(3.0, 1.0 / 3.0)), 0.01);
   EXPECT_NEAR(sounding_beams({beam}, BeamPattern::wide_fan).front().psi_db,
-              db_from_linear(integral_rad(6.0, 1.0) * integral_rad(3.0, 0.1)), 0.01);
+              db_from_linear(two_way_integral_rad(6.0, 1.0) * two_way_integral_rad(3.0, 0.1)), 0.01);
 }
 
 }  // namespace
