@@ -22,17 +22,17 @@ constexpr double kMostDepth_m = 1e5;
 
 using Words = std::vector<std::string_view>;
 
-/// Among the words of one line, which may be all of a file.
-constexpr std::size_t kWordsBetweenLooks = 4096;
+// Such a line holds a region over 70 000 pings, or 700 000 runs of cells in one ping; so many lines are a ping a second for 46
+// days. Of letters alone a line takes 8 times its bytes as words, an empty note 32 bytes.
+constexpr std::size_t kMostLineBytes = 8U << 20U;
+constexpr std::int64_t kMostLines = 4'000'000;
 
 bool stopped(const Work* work) { return work != nullptr && work->cancelled(); }
 tl::unexpected<Error> stop() { return fail(ErrorCode::cancelled, "stopped on request"); }
 
-/// Fewer of them where the work is stopped; who passes it asks for that before he believes them.
-Words words_of(std::string_view line, const Work* work = nullptr) {
+Words words_of(std::string_view line) {
   Words words;
   for (std::size_t at = 0; at < line.size();) {
-    if (words.size() % kWordsBetweenLooks == 0 && stopped(work)) break;
     const std::size_t begin = line.find_first_not_of(" \t", at);
     if (begin == std::string_view::npos) break;
     at = std::min(line.find_first_of(" \t", begin), line.size());
@@ -83,26 +83,27 @@ class Lines {
   [[nodiscard]] std::int64_t number() const { return number_; }  ///< of the line that next() gave last
   [[nodiscard]] bool at_end() const { return text_.empty(); }
 
-  [[nodiscard]] const Work* work() const { return work_; }
-
-  /// errors  format: the file ends where something was expected; cancelled
+  /// errors  format: the file ends where something was expected, or is longer than any; cancelled
   Result<std::string_view> next(std::string_view expected) {
     if (stopped(work_)) return stop();
     ++number_;
     if (at_end()) return problem(fmt::format("the file ends; expected {}", expected));
-    const std::size_t end = std::min(text_.find('\n'), text_.size());
-    std::string_view line = text_.substr(0, end);
-    text_.remove_prefix(std::min(end + 1, text_.size()));
+    if (number_ > kMostLines) return problem(fmt::format("expected the end, after at most {} lines", kMostLines));
+    std::string_view line = line_here();
+    if (line.size() > kMostLineBytes) {
+      return problem(fmt::format("{} bytes; expected {}, in at most {}", line.size(), expected, kMostLineBytes));
+    }
+    pass(line);
     if (line.ends_with('\r')) line.remove_suffix(1);
     return line;
   }
 
   /// Passes over lines with nothing in them.
   void skip_empty() {
-    while (!at_end()) {
-      const std::size_t end = std::min(text_.find('\n'), text_.size());
-      if (text_.substr(0, end).find_first_not_of(" \t\r") != std::string_view::npos) return;
-      text_.remove_prefix(std::min(end + 1, text_.size()));
+    while (!at_end() && number_ < kMostLines) {
+      const std::string_view line = line_here();
+      if (line.size() > kMostLineBytes || line.find_first_not_of(" \t\r") != std::string_view::npos) return;
+      pass(line);
       ++number_;
     }
   }
@@ -123,17 +124,17 @@ class Lines {
     return *number;
   }
 
-  /// So many lines as they stand.
-  Result<std::vector<std::string>> counted_lines(std::string_view of) {
+  /// So many lines, each as it stands.
+  template <class Take>
+  Result<void> counted_lines(std::string_view of, const Take& take) {
     const auto count_ = count(of);
     if (!count_) return pass_on(count_);
-    std::vector<std::string> lines;
     for (std::int64_t i = 0; i < *count_; ++i) {
       const auto line = next(fmt::format("{} of {}", i + 1, of));
       if (!line) return pass_on(line);
-      lines.push_back(clean_utf8(*line));
+      take(*line);
     }
-    return lines;
+    return {};
   }
 
   /// "EVRG 7 10.0.0.0": what the file is, and the version of its format.
@@ -153,6 +154,9 @@ class Lines {
   }
 
  private:
+  [[nodiscard]] std::string_view line_here() const { return text_.substr(0, text_.find('\n')); }
+  void pass(std::string_view line) { text_.remove_prefix(std::min(line.size() + 1, text_.size())); }
+
   std::string_view text_;
   const std::string& file_;
   const Work* work_;
@@ -189,14 +193,12 @@ Result<std::int64_t> points_of_head(const Lines& lines, std::string_view line) {
 Result<void> read_corners(Lines& lines, std::int64_t count, EchoviewRegion& region) {
   const auto line = lines.next("the points of a region");
   if (!line) return pass_on(line);
-  const Words words = words_of(*line, lines.work());
-  if (stopped(lines.work())) return stop();
+  const Words words = words_of(*line);
   if (words.size() % 3 != 1 || static_cast<std::int64_t>(words.size() / 3) != count) {
     return lines.problem(fmt::format("expected {} (date, time, depth) and the type of the region",
                                      count_of(static_cast<std::size_t>(count), "point")));
   }
   for (std::size_t i = 0; i + 1 < words.size(); i += 3) {
-    if (i % kWordsBetweenLooks == 0 && stopped(lines.work())) return stop();
     const auto time = time_of(words[i], words[i + 1]);
     const auto depth = depth_of(words[i + 2]);
     if (!time || !depth) {
@@ -219,11 +221,11 @@ Result<EchoviewRegion> read_region(Lines& lines) {
   region.line = lines.number();
   const auto points = points_of_head(lines, *first);
   if (!points) return pass_on(points);
-  auto notes = lines.counted_lines("lines of notes");
-  if (!notes) return pass_on(notes);
-  region.notes = std::move(*notes);
+  const auto keep = [&](std::string_view note) { region.notes.push_back(clean_utf8(note)); };
+  if (auto notes = lines.counted_lines("lines of notes", keep); !notes) return pass_on(notes);
   region.first_note_line = region.line + 2;
-  if (const auto settings = lines.counted_lines("lines of detection settings"); !settings) return pass_on(settings);
+  const auto pass = [](std::string_view) {};
+  if (auto settings = lines.counted_lines("lines of detection settings", pass); !settings) return pass_on(settings);
   const auto region_class = lines.next("the class of a region");
   if (!region_class) return pass_on(region_class);
   region.region_class = clean_utf8(*region_class);
@@ -282,12 +284,11 @@ std::vector<DepthSpan> depths_at(std::span<const EchoviewCorner> corners, TimeNs
 
 namespace {
 
-std::optional<EchoviewCells::InPing> cells_in_ping(const Words& words, const Work* work) {
+std::optional<EchoviewCells::InPing> cells_in_ping(const Words& words) {
   const auto time = words.size() >= 6 ? time_of(words[1], words[2]) : std::nullopt;
   if (!time || words.size() % 3 != 0) return std::nullopt;
   EchoviewCells::InPing ping{*time, {}};
   for (std::size_t i = 3; i < words.size(); i += 3) {
-    if (i % kWordsBetweenLooks == 0 && stopped(work)) break;
     const auto beam = index_of(words[i]);
     const auto first = index_of(words[i + 1]);
     const auto count = index_of(words[i + 2]);
@@ -299,7 +300,7 @@ std::optional<EchoviewCells::InPing> cells_in_ping(const Words& words, const Wor
 }
 
 /// Whether the line was one of cells; or what was expected in it.
-Result<bool> read_note(const Words& words, EchoviewCells& cells, const Work* work) {
+Result<bool> read_note(const Words& words, EchoviewCells& cells) {
   const auto wrong = [](const char* expected) { return fail(ErrorCode::format, expected); };
   const bool begins_with_number =
       words.size() >= 2 && words[1].find_first_not_of("0123456789") == std::string_view::npos;
@@ -313,7 +314,7 @@ Result<bool> read_note(const Words& words, EchoviewCells& cells, const Work* wor
     if (!first || !last || *last < *first) return wrong("expected beams A B with A <= B, counted from 0");
     cells.beams = {*first, *last};
   } else if (words[0] == "cells") {
-    auto ping = cells_in_ping(words, work);
+    auto ping = cells_in_ping(words);
     if (!ping) return wrong("expected cells CCYYMMDD HHmmSSssss and BEAM FIRST COUNT of each run");
     const bool rising = cells.pings.empty() || cells.pings.back().time < ping->time;
     if (!rising) return wrong("expected cells of a later ping than the line before");
@@ -329,8 +330,8 @@ Result<bool> read_note(const Words& words, EchoviewCells& cells, const Work* wor
 Result<EchoviewCells> cells_of(const EchoviewRegion& region, const std::string& file, const Work* work) {
   EchoviewCells cells;
   for (std::size_t i = 0; i < region.notes.size(); ++i) {
-    const auto read = read_note(words_of(region.notes[i], work), cells, work);
     if (stopped(work)) return stop();
+    const auto read = read_note(words_of(region.notes[i]), cells);
     if (!read) {
       const std::int64_t line = region.first_note_line + static_cast<std::int64_t>(i);
       return fail(ErrorCode::format, fmt::format("line {}: {}", line, read.error().text), {file});

@@ -15,7 +15,11 @@
 namespace sonar {
 
 // Echoview's text formats read back, as version 7 of regions and 3 of lines have them: UTF-8 with or without byte order mark,
-// lines ended by CR LF or LF. Every field is checked, and memory grows with the text, never with a number that it states.
+// lines ended by CR LF or LF. Every field is checked, and memory grows with the text, never with a number that it states: a
+// file has at most kMostEchoviewBytes and 4 million lines of up to 8 MB, which no real one reaches.
+
+/// What is to be read of a file, bytes.
+inline constexpr std::uint64_t kMostEchoviewBytes = 256U << 20U;
 
 /// A corner of a region.
 struct EchoviewCorner {

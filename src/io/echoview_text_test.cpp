@@ -168,6 +168,32 @@ TEST(EchoviewReader, ALineIsReadAndItsDamageTold) {
   }
 }
 
+// A file of single letters, or of nothing but ends of lines, takes many times its own bytes once it is taken apart: each is refused
+// where it goes beyond what any file has.
+TEST(EchoviewReader, LinesBeyondAnyFilesAreRefused) {
+  std::string letters;
+  for (int i = 0; i < 5'000'000; ++i) letters += "a ";
+  const std::string line_of_letters = ": 10000000 bytes; expected ";
+  const auto in_region = [&](const std::string& before) { return replaced(kTwoRegions, before, letters + before); };
+  const std::string empty_lines = "5000000\n" + std::string(5'000'000, '\n');
+  const std::vector<std::pair<std::string, std::string>> regions{
+      {letters, "line 1" + line_of_letters + "EVRG 7"},
+      {in_region("near the wreck"), "line 6: 10000015 bytes; expected 1 of lines of notes, in at most 8388608"},
+      {in_region("20261121 1957265000 10.5 20261121 1957285000 10.5"), "line 11: 10000104 bytes; expected the points"},
+      {replaced(kTwoRegions, "1\r\nthreshold -60\r\n", empty_lines),
+       "line 4000001: expected the end, after at most 4000000 lines"},
+      {kTwoRegions + std::string(5'000'000, '\n'), "line 4000001: expected the end after 2 regions"},
+  };
+  for (const auto& [text, told] : regions) {
+    const auto read = parse_evr(text, "a.evr");
+    ASSERT_FALSE(read.has_value()) << told;
+    EXPECT_THAT(to_line(read.error()), HasSubstr("a.evr: " + told));
+  }
+  const auto line = parse_evl("EVBD 3 13.0\n1\n" + letters, "a.evl");
+  ASSERT_FALSE(line.has_value());
+  EXPECT_THAT(to_line(line.error()), HasSubstr("a.evl: line 3" + line_of_letters + "point 1 of 1, in at most 8388608"));
+}
+
 // The last region's name is an empty line: a file that is cut before it, at whatever byte, is refused.
 TEST(EchoviewReader, ACutFileIsRefused) {
   const std::string regions = kTwoRegions;

@@ -8,6 +8,7 @@
 
 #include "base/units.h"
 #include "pipeline/stages/placements.h"
+#include "pipeline/stages/voxel_statistics.h"
 #include "pipeline/stages/weak_samples.h"
 #include "publish/movies/between_pings.h"
 #include "publish/reports/sample_looks.h"
@@ -176,8 +177,8 @@ Result<FrameDescription> slice_frame(PictureKind kind, DrawnObservation& observa
   data.masks = chosen_layers(*ping, options);
   data.refused = drawn_refused(observation, *sector, ping->ping_index, options);
   if (options.display.shadow && ping->staged) {
-    data.shadow_from = shadow_of_schools(*ping->heard, *sector, mask_layers(*ping, options),
-                                         observation.recipe().measure.extinction, options.display);
+    data.shadow_from = shadow_from(*ping->heard, *sector, casting_shadow(*ping, options),
+                                   observation.recipe().measure.extinction, options.display.shadow_db);
   }
   SliceStyle style = slice_style(options.display, colours_of(options));
   style.masks.shown = options.display.masks;

@@ -133,11 +133,11 @@ Result<DrawnEchogram> of_beams(DrawnObservation& observation, const PingSpan& sp
         const auto staged = engine->staged(ping);
         if (!staged) return Column{};
         if (options.display.shadow) {
-          const std::vector<MaskLayer> layers = mask_layers(observation.ping_without_samples(ping), options);
+          const DrawnPing drawn = observation.ping_without_samples(ping);
           const auto at = static_cast<std::size_t>(ping - span.first);
-          shadow[at] =
-              echogram_shadow(shadow_of(*staged, *sector, schools_of(layers), observation.recipe().measure.extinction),
-                              rows(ping), range, sector->range().count, options.display.shadow_db, at);
+          shadow[at] = echogram_shadow(
+              shadow_of(*staged, *sector, casting_shadow(drawn, options), observation.recipe().measure.extinction),
+              rows(ping), range, sector->range().count, options.display.shadow_db, at);
         }
         return echogram_column(*staged, *sector, placement(ping), *of, shown, range);
       },

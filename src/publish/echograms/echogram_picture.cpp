@@ -48,7 +48,7 @@ struct DrawnLine {
 Result<DrawnLine> line_of(const PictureOptions& options) {
   DrawnLine line;
   if (options.line.empty() || !options.kind.echogram.depth) return line;
-  const auto text = read_file(options.line);
+  const auto text = read_file(options.line, kMostEchoviewBytes);
   if (!text) return pass_on(text);
   const auto points = parse_evl(*text, options.line.string());
   if (!points) return pass_on(points);

@@ -3,8 +3,6 @@
 
 #include <utility>
 
-#include "pipeline/stages/voxel_statistics.h"
-
 namespace sonar {
 namespace {
 
@@ -72,20 +70,6 @@ SampleFlags left_out_of_volume(const DisplayParams& display) {
 
 std::optional<double> weak_below(const DisplayParams& display) {
   return display.weak == NoiseLook::shown ? std::nullopt : std::optional(display.weak_below_db);
-}
-
-std::vector<const PingMask*> schools_of(std::span<const MaskLayer> masks) {
-  std::vector<const PingMask*> schools;
-  for (const MaskLayer& layer : masks) {
-    const bool rejected = layer.line == OutlineLine::dotted;  // status_line()
-    if (layer.mask != nullptr && !rejected) schools.push_back(layer.mask.get());
-  }
-  return schools;
-}
-
-std::vector<int> shadow_of_schools(const StagedPing& ping, const Sector& sector, std::span<const MaskLayer> masks,
-                                   const ExtinctionParams& extinction, const DisplayParams& display) {
-  return shadow_from(ping, sector, schools_of(masks), extinction, display.shadow_db);
 }
 
 }  // namespace sonar

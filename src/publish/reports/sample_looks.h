@@ -2,12 +2,8 @@
 #pragma once
 
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "base/sample_flags.h"
-#include "pipeline/recipe/recipe.h"
-#include "pipeline/stages/engine.h"
 #include "publish/picture_params.h"
 #include "view/slices/slice_picture.h"
 
@@ -28,13 +24,5 @@ namespace sonar {
 
 /// Below which signal-to-noise samples carry low_snr, dB; empty where weak ones look as others do.
 [[nodiscard]] std::optional<double> weak_below(const DisplayParams& display);
-
-/// SliceData::shadow_from of the masks that are drawn, also of ContextParams.
-[[nodiscard]] std::vector<int> shadow_of_schools(const StagedPing& ping, const Sector& sector,
-                                                 std::span<const MaskLayer> masks, const ExtinctionParams& extinction,
-                                                 const DisplayParams& display);
-
-/// Of masks that are drawn, those that take sound out of beams: no school that a human rejected.
-[[nodiscard]] std::vector<const PingMask*> schools_of(std::span<const MaskLayer> masks);
 
 }  // namespace sonar

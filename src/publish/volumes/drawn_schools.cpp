@@ -89,6 +89,15 @@ std::vector<MaskLayer> chosen_layers(const DrawnPing& ping, const PictureOptions
   return layers;
 }
 
+std::vector<const PingMask*> casting_shadow(const DrawnPing& ping, const PictureOptions& options) {
+  std::vector<const PingMask*> masks;
+  for (const DrawnMask& drawn : ping.masks) {
+    const bool shown = options.display.masks && wanted(drawn.school_id, drawn.status, options);
+    if (shown && drawn.mask && drawn.status != "rejected") masks.push_back(drawn.mask.get());
+  }
+  return masks;
+}
+
 TrailSubject trail_subject(const DrawnObservation& observation, const PictureOptions& options) {
   const ObservationProduct& product = observation.product();
   TrailSubject out{borrowed(product.pings), observation.recipe().navigation.beams_stabilised, {}};

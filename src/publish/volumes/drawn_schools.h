@@ -26,6 +26,9 @@ namespace sonar {
 /// Those that are shown.
 [[nodiscard]] std::vector<MaskLayer> mask_layers(const DrawnPing& ping, const PictureOptions& options);
 
+/// Those that are shown and take sound out of beams: of no school that a human rejected. Part of the ping.
+[[nodiscard]] std::vector<const PingMask*> casting_shadow(const DrawnPing& ping, const PictureOptions& options);
+
 /// A school of a ping as a key names it: "school 3, unreviewed". Rejected ones are grey, as their masks are.
 struct DrawnSchoolKey {
   std::int64_t id = 0;  ///< SchoolRow::school_id

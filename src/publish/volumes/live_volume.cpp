@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "pipeline/stages/voxel_statistics.h"
 #include "publish/maps/chart_seabed.h"
 #include "publish/movies/between_pings.h"
 #include "publish/renderer_choice.h"
@@ -111,7 +112,7 @@ struct LiveVolume::State {
   std::shared_ptr<const std::vector<SceneLine>> trail_lines;  ///< as drawn last
   ChartSeabed chart{kChartSpare, kChartNodes};
   std::string chart_notice;
-  std::shared_ptr<const std::vector<int>> shadow_from;  ///< of `drawn`'s masks in `heard`; null = not shown
+  std::shared_ptr<const std::vector<int>> shadow_from;  ///< of `drawn.casting_shadow` in `heard`; null = not shown
   Staged heard;
 
   void let_go() {
@@ -254,15 +255,15 @@ void LiveVolume::State::take_trails(VolumeFigure& figure, const LiveVolumeInput&
 void LiveVolume::State::take_shadow(VolumeFigure& figure, const LiveVolumeInput& input, const Staged& nearer) {
   const DisplayParams& display = input.options.display;
   const bool same = shadow_from && heard == nearer && drawn.sector == input.sector &&
-                    drawn.options.display.shadow_db == display.shadow_db && same_masks(drawn.masks, input.masks) &&
-                    drawn.tried == input.tried;
+                    drawn.options.display.shadow_db == display.shadow_db &&
+                    drawn.casting_shadow == input.casting_shadow;
   if (!display.shadow) {
     shadow_from.reset();
   } else if (!same) {
-    // What is only tried casts no shadow.
-    const std::span whole(input.masks.data(), input.masks.size() - std::min(input.tried, input.masks.size()));
+    std::vector<const PingMask*> masks;
+    for (const auto& mask : input.casting_shadow) masks.push_back(mask.get());
     shadow_from = std::make_shared<const std::vector<int>>(
-        shadow_of_schools(*nearer, *input.sector, whole, input.extinction, display));
+        sonar::shadow_from(*nearer, *input.sector, masks, input.extinction, display.shadow_db));
     heard = nearer;
   }
   figure.shadow_from = shadow_from;

@@ -38,9 +38,10 @@ struct LiveVolumeInput {
   std::string title;       ///< of the observation
   std::string title_line;  ///< of the picture
   std::vector<MaskLayer> masks;
-  std::size_t tried = 0;                              ///< the last so many masks are only tried: pointers pass through
-  std::vector<std::string> names;                     ///< [mask] beside it in the picture; empty = none
-  std::vector<std::pair<Rgba8, std::string>> legend;  ///< of the masks
+  std::size_t tried = 0;  ///< the last so many masks are only tried: pointers pass through
+  std::vector<std::shared_ptr<const PingMask>> casting_shadow{};  ///< masks that take sound out of beams
+  std::vector<std::string> names;                                 ///< [mask] beside it in the picture; empty = none
+  std::vector<std::pair<Rgba8, std::string>> legend;              ///< of the masks
   std::vector<RefusedMark> refused;
   CurrentColumn currents;         ///< below the ship
   ExtinctionParams extinction;    ///< by which schools cast a shadow, where the options show it

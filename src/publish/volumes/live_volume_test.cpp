@@ -39,6 +39,7 @@ LiveVolumeInput block_of_echo() {
   input.staged = std::move(staged);
   input.sector = std::make_shared<const Sector>(sector);
   input.masks = {{std::move(mask), {1.0F, 0.0F, 1.0F}}};
+  input.casting_shadow = {input.masks.front().mask};
   input.legend = {{{255, 0, 255, 255}, "school 1"}};
   input.options.size = {400, 300};
   input.options.volume.frames = 2;

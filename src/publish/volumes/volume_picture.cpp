@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "pipeline/stages/placements.h"
+#include "pipeline/stages/voxel_statistics.h"
 #include "publish/maps/chart_seabed.h"
 #include "publish/movies/between_pings.h"
 #include "publish/renderer_choice.h"
@@ -120,8 +121,9 @@ Result<VolumeFigure> prepare(DrawnObservation& observation, const PictureOptions
     out.volume = drawn_volume(*sector, *ping->staged, options, cut, depth);
     out.fitted = fitted_seabed(*ping->staged);
     if (options.display.shadow) {
-      out.shadow_from = std::make_shared<const std::vector<int>>(shadow_of_schools(
-          *ping->heard, *sector, out.masks, observation.recipe().measure.extinction, options.display));
+      out.shadow_from = std::make_shared<const std::vector<int>>(
+          shadow_from(*ping->heard, *sector, casting_shadow(*ping, options), observation.recipe().measure.extinction,
+                      options.display.shadow_db));
     }
   } else {
     const Shape3 shape{sector->fans(), sector->beams(), sector->range().count};

@@ -4,13 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 #include <vector>
 
-#include "pipeline/stages/detected_cache.h"
-#include "session/test_app.h"
-#include "session/test_run.h"
+#include "session/test_results.h"
 
 namespace sonar {
 namespace {
@@ -22,27 +19,21 @@ using testing::Each;
 using testing::HasSubstr;
 using testing::Not;
 
-class DecisionsOfResults : public testing::Test, protected TestApp {
+class DecisionsOfResults : public TestResults {
  protected:
   void SetUp() override {
-    auto plan = run_easy(out_);
-    ASSERT_TRUE(plan) << to_line(plan.error());
-    plan->session = session_.string();
-    std::ofstream(out_ / "plan.json") << plan_text(*plan);
-    product_ = kept_detected(product_path(out_, plan->tasks[0].observation), plan->tasks[0].key);
-    ASSERT_TRUE(product_);
-  }
-  void open() {
-    app_ = std::make_unique<AppModel>(queue_, TestSurvey::options(journal_));
-    document().open({out_});
-    document().settle();
+    ASSERT_NO_FATAL_FAILURE(TestResults::SetUp());
+    plan_.session = session_.string();
+    write_plan();
+    product_ = product_of(0);
+    ASSERT_FALSE(product_.masks.empty());
   }
   /// The first voxel of the first school, farther out by so many samples.
   [[nodiscard]] SchoolKey voxel(int samples = 0) const {
-    const SchoolMask& mask = product_->masks.front();
+    const SchoolMask& mask = product_.masks.front();
     const sonar::Run& run = mask.mask.runs.front();
-    const int channel = product_->grid->grid.channel[static_cast<std::size_t>(run.row)];
-    return {product_->pings[static_cast<std::size_t>(mask.ping_index)].time, channel, run.first_sample + samples};
+    const int channel = product_.grid->grid.channel[static_cast<std::size_t>(run.row)];
+    return {product_.pings[static_cast<std::size_t>(mask.ping_index)].time, channel, run.first_sample + samples};
   }
   void say(const std::string& who, Command command) {
     const JournalAct act{++lines_, lines_ * kSecondNs, who, voxel().ping_time, std::move(command)};
@@ -58,22 +49,21 @@ class DecisionsOfResults : public testing::Test, protected TestApp {
     return std::ranges::count(document().state(0).notes, DiagnosticCode::decision_lost, &Diagnostic::code);
   }
 
-  fs::path out_ = TestSurvey::easy().fresh();
   fs::path session_ = TestSurvey::easy().fresh() / "chosen.jsonl";
-  std::optional<ObservationProduct> product_;
+  ObservationProduct product_;
   std::int64_t lines_ = 0;
 };
 
 TEST_F(DecisionsOfResults, AreTakenOverWithTheirPersonAndToldOnce) {
   say("ann", species(voxel(), "herring"));
   say("ann", species(voxel(500), "nobody is there"));
-  open();
+  open({out_});
   ASSERT_FALSE(document().state(0).schools.empty());
   EXPECT_EQ(document().state(0).schools.front()->masks.decided.species, "herring");
   EXPECT_EQ(document().state(0).schools.front()->masks.decided.operator_name, "ann");
   EXPECT_EQ(lost(), 1) << "what finds no school is listed";
   EXPECT_THAT(document().notices(), Contains(AllOf(HasSubstr("2 decisions"), HasSubstr("ann"))));
-  open();
+  open({out_});
   EXPECT_EQ(document().state(0).schools.front()->masks.decided.species, "herring");
   EXPECT_EQ(lost(), 1) << "they are there once";
   EXPECT_THAT(document().notices(), Each(Not(HasSubstr("taken over"))));
@@ -82,7 +72,7 @@ TEST_F(DecisionsOfResults, AreTakenOverWithTheirPersonAndToldOnce) {
 TEST_F(DecisionsOfResults, ThatAreOnesOwnAreOneStepToUndo) {
   say("tester", DetectCommand{2});
   say("tester", species(voxel(), "herring"));
-  open();
+  open({out_});
   ASSERT_EQ(document().state(0).schools.size(), 2U);
   EXPECT_EQ(document().state(0).schools.front()->masks.decided.species, "herring");
   // Above them lies that the schools of the other observation were looked for.
@@ -95,7 +85,7 @@ TEST_F(DecisionsOfResults, ThatAreOnesOwnAreOneStepToUndo) {
 }
 
 TEST_F(DecisionsOfResults, WhoseJournalIsGoneAreMissedInOneLine) {
-  open();
+  open({out_});
   EXPECT_EQ(document().state(0).schools.size(), 2U);
   EXPECT_THAT(document().notices(), Contains(AllOf(HasSubstr("not taken over"), HasSubstr(session_.string()))));
 }

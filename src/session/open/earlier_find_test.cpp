@@ -10,25 +10,17 @@
 
 #include "pipeline/stages/detected_cache.h"
 #include "pipeline/stages/observe.h"
-#include "session/test_survey.h"
+#include "session/test_document.h"
 
 namespace sonar {
 namespace {
 
 namespace fs = std::filesystem;
 
-class EarlierFind : public testing::Test {
+class EarlierFind : public TestDocument {
  protected:
-  void open() {
-    document_.reset();
-    DocumentOptions options = TestSurvey::options(folder_);
-    options.cache.folder = folder_ / "cache";
-    document_ = std::make_unique<Document>(queue_, options);
-    document_->open({TestSurvey::easy().folder()});
-    document_->settle();
-  }
   [[nodiscard]] fs::path find() const {
-    return detected_file({folder_ / "found"}, *document_->survey(), document_->survey()->observations[0]);
+    return detected_file({folder_ / "found"}, *document_->survey(), observation());
   }
   /// A voxel of the last sample of a school's middle mask, farther out than its own end by so many samples.
   [[nodiscard]] SchoolKey beyond(std::int64_t school_id, const ObservationProduct& product, int samples) const {
@@ -39,9 +31,8 @@ class EarlierFind : public testing::Test {
     const SchoolMask& middle = *masks[masks.size() / 2];
     const auto last = std::max_element(middle.mask.runs.begin(), middle.mask.runs.end(),
                                        [](const auto& a, const auto& b) { return a.end() < b.end(); });
-    const auto& observation = document_->survey()->observations[0];
-    return {document_->survey()->ping_time(observation, static_cast<std::size_t>(middle.ping_index)),
-            observation.grid->channel[static_cast<std::size_t>(last->row)], last->end() - 1 + samples};
+    return {document_->survey()->ping_time(observation(), static_cast<std::size_t>(middle.ping_index)),
+            observation().grid->channel[static_cast<std::size_t>(last->row)], last->end() - 1 + samples};
   }
   void say(const SchoolKey& school, const std::string& species) {
     Decision decision;
@@ -61,21 +52,17 @@ class EarlierFind : public testing::Test {
     return std::count_if(all.begin(), all.end(), [&](const Diagnostic& note) { return note.code == code; });
   }
 
-  fs::path folder_ = TestSurvey::easy().fresh();
-  ChangeQueue queue_;
-  std::unique_ptr<Document> document_;
   std::vector<JournalLine> lines_;
 };
 
 TEST_F(EarlierFind, PlacesDecisionsAtEachOpening) {
   open();
-  document_->detect({0});
-  document_->settle();
+  detect();
   const std::size_t schools = document_->state(0).schools.size();
   ASSERT_GE(schools, 2U);
   lines_ = *document_->choices().lines;  // `detect`
   Work work;
-  auto older = observe(*document_->survey(), document_->survey()->observations[0], Recipe{}, {{}, {}, "0.1.0"}, work);
+  auto older = observe(*document_->survey(), observation(), Recipe{}, {{}, {}, "0.1.0"}, work);
   ASSERT_TRUE(older);
   // Another version's masks reach a few samples farther.
   constexpr int kFarther = 3;

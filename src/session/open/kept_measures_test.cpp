@@ -16,7 +16,7 @@
 #include "pipeline/stages/detected_cache.h"
 #include "pipeline/stages/measured_pings.h"
 #include "pipeline/stages/observe.h"
-#include "session/test_survey.h"
+#include "session/test_document.h"
 
 namespace sonar {
 namespace {
@@ -39,34 +39,17 @@ std::string text_of(std::vector<Row> rows) {
   return out.text;
 }
 
-class KeptMeasures : public testing::Test {
+class KeptMeasures : public TestDocument {
  protected:
-  /// Lets go of what is open, which keeps its figures, and opens it again.
-  void open() {
-    document_.reset();
-    DocumentOptions options = TestSurvey::options(folder_);
-    options.cache.folder = folder_ / "cache";
-    document_ = std::make_unique<Document>(queue_, options);
-    document_->open({TestSurvey::easy().folder()});
-    document_->settle();
-  }
-  void detect() {
-    document_->detect({0});
-    document_->settle();
-  }
   [[nodiscard]] fs::path file() const {
-    return measured_file({folder_ / "found"}, *document_->survey(), document_->survey()->observations[0]);
+    return measured_file({folder_ / "found"}, *document_->survey(), observation());
   }
   [[nodiscard]] std::string key() const {
     Recipe recipe = document_->measuring_recipe();
     recipe.automatic = true;
-    return observation_key(*document_->survey(), document_->survey()->observations[0], recipe, {{}, {}, "test"});
+    return observation_key(*document_->survey(), observation(), recipe, {{}, {}, "test"});
   }
   [[nodiscard]] std::vector<SchoolPingRow> rows() const { return document_->product(0)->school_pings; }
-
-  fs::path folder_ = TestSurvey::easy().fresh();
-  ChangeQueue queue_;
-  std::unique_ptr<Document> document_;
 };
 
 TEST_F(KeptMeasures, AreTheSameAfterReopening) {
@@ -167,14 +150,11 @@ TEST_F(KeptMeasures, OfAnEarlierVersionAreTakenFromTheCache) {
 }
 
 TEST_F(KeptMeasures, WithoutAJournalAreKeptInTheCache) {
-  DocumentOptions options = TestSurvey::options(folder_);
-  options.cache.folder = folder_ / "cache";
-  options.journal_folders = [](const auto&) { return std::vector<fs::path>{}; };
-  document_ = std::make_unique<Document>(queue_, options);
-  document_->open({TestSurvey::easy().folder()});
-  document_->settle();
+  DocumentOptions without = options();
+  without.journal_folders = [](const auto&) { return std::vector<fs::path>{}; };
+  open(without);
   detect();
-  EXPECT_TRUE(fs::exists(detected_file(options.cache, *document_->survey(), document_->survey()->observations[0])));
+  EXPECT_TRUE(fs::exists(detected_file(without.cache, *document_->survey(), observation())));
 }
 
 }  // namespace

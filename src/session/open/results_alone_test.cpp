@@ -17,8 +17,7 @@
 #include "session/live/live_watch.h"
 #include "session/pictures/exports.h"
 #include "session/playing/playback.h"
-#include "session/test_app.h"
-#include "session/test_run.h"
+#include "session/test_results.h"
 #include "session/words/preferences.h"
 
 namespace sonar {
@@ -28,33 +27,16 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-class ResultsWithoutRaw : public testing::Test, protected TestApp {
+class ResultsWithoutRaw : public TestResults {
  protected:
   void SetUp() override {
-    auto plan = run_easy(out_);
-    ASSERT_TRUE(plan) << to_line(plan.error());
-    plan_ = *plan;
-    plan_.survey = {(out_ / "gone").string()};
-    std::ofstream(out_ / "plan.json") << plan_text(plan_);
-  }
-  void open(std::vector<fs::path> paths) {
-    app_ = std::make_unique<AppModel>(queue_, TestSurvey::options(journal_));
-    document().open(std::move(paths));
-    document().settle();
-  }
-  [[nodiscard]] ObservationProduct product_of(std::size_t task) const {
-    auto product = kept_detected(product_path(out_, plan_.tasks[task].observation), plan_.tasks[task].key);
-    EXPECT_TRUE(product);
-    return product.value_or(ObservationProduct{});
+    ASSERT_NO_FATAL_FAILURE(TestResults::SetUp());
+    move_raw_away();
   }
   [[nodiscard]] std::ptrdiff_t notices_that_raw_files_are_gone() {
     return std::ranges::count_if(
         document().notices(), [](const std::string& line) { return line.find("are not here") != std::string::npos; });
   }
-
-  const fs::path& raw_ = TestSurvey::easy().folder();
-  fs::path out_ = TestSurvey::easy().fresh();
-  Plan plan_;
 };
 
 TEST_F(ResultsWithoutRaw, ShowTheSchoolsOfTheirProductsWithTheirFigures) {
@@ -227,7 +209,7 @@ class JournalsOfResults : public ResultsWithoutRaw {
   void plan_says(const fs::path& survey, const fs::path& session) {
     plan_.survey = {survey.string()};
     plan_.session = session.string();
-    std::ofstream(out_ / "plan.json") << plan_text(plan_);
+    write_plan();
   }
   void call_herring() {
     Decision decision;

@@ -12,8 +12,7 @@
 #include "pipeline/journal/session_recipe.h"
 #include "pipeline/stages/detected_cache.h"
 #include "session/pictures/exports.h"
-#include "session/test_app.h"
-#include "session/test_run.h"
+#include "session/test_results.h"
 
 namespace sonar {
 namespace {
@@ -25,27 +24,8 @@ using testing::Each;
 using testing::HasSubstr;
 using testing::Not;
 
-class WorkFolders : public testing::Test, protected TestApp {
+class WorkFolders : public TestResults {
  protected:
-  void SetUp() override {
-    auto plan = run_easy(out_);
-    ASSERT_TRUE(plan) << to_line(plan.error());
-    plan_ = *plan;
-  }
-  void open(std::vector<fs::path> paths, const std::string& version = "test") {
-    DocumentOptions options = TestSurvey::options(journal_);
-    options.program_version = version;
-    options.cache = cache_;
-    app_ = std::make_unique<AppModel>(queue_, options);
-    document().open(std::move(paths));
-    document().settle();
-  }
-  /// What the run made of the observation of a task.
-  [[nodiscard]] ObservationProduct product_of(std::size_t task) const {
-    auto product = kept_detected(product_path(out_, plan_.tasks[task].observation), plan_.tasks[task].key);
-    EXPECT_TRUE(product);
-    return product.value_or(ObservationProduct{});
-  }
   /// Takes the last school out of the second product, under the same key: whoever detects would find it.
   [[nodiscard]] std::size_t with_one_school_fewer() const {
     ObservationProduct product = product_of(1);
@@ -57,17 +37,7 @@ class WorkFolders : public testing::Test, protected TestApp {
     EXPECT_EQ(product_of(1).schools.size(), product.schools.size());
     return product.schools.size();
   }
-  /// The plan names raw files that are not there.
-  void move_raw_away() {
-    plan_.survey = {(out_ / "gone").string()};
-    std::ofstream(out_ / "plan.json") << plan_text(plan_);
-  }
   [[nodiscard]] std::size_t schools(std::size_t observation) { return document().state(observation).schools.size(); }
-
-  const fs::path& raw_ = TestSurvey::easy().folder();
-  fs::path out_ = TestSurvey::easy().fresh();
-  IndexCache cache_;
-  Plan plan_;
 };
 
 TEST_F(WorkFolders, OpenTheirSurveyWithTheSchoolsOfTheRunAndNothingIsDetected) {

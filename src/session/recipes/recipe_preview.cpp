@@ -31,9 +31,12 @@ std::vector<SchoolLayer> layers_of(const std::shared_ptr<const std::vector<PingS
   std::vector<SchoolLayer> layers;
   for (const PingSchool& school : *schools) {
     const auto number = static_cast<std::int64_t>(layers.size()) + 1;
-    layers.push_back({number, false,
+    layers.push_back({number,
+                      false,
                       mask_layer(std::shared_ptr<const PingMask>(schools, &school.mask),
-                                 school_colour(static_cast<int>(number)), "unreviewed")});
+                                 school_colour(static_cast<int>(number)), "unreviewed"),
+                      {},
+                      true});
   }
   return layers;
 }

@@ -27,6 +27,21 @@ class ReviewAtWork : public testing::Test, protected TestApp {
     document().settle();
     ASSERT_EQ(document().state().schools.size(), static_cast<std::size_t>(count));
   }
+  /// One over five pings, one over two.
+  void paint_long_and_short() {
+    paint(2, 6, 5, 5, 200);
+    paint(2, 3, 12, 12, 300);
+    document().settle();
+  }
+  /// A school in each observation; the second one, over pings first .. last, is shown.
+  void paint_in_each_observation(std::int64_t first, std::int64_t last) {
+    paint(2, 3, 5, 5, 200);
+    document().settle();
+    ASSERT_TRUE(document().show(1));
+    document().settle();
+    paint(first, last, 5, 5, 200);
+    document().settle();
+  }
   [[nodiscard]] Review& review() { return dynamic_cast<Review&>(*app_->rows("review")); }
   [[nodiscard]] std::size_t backscatter_column() {
     const auto& columns = review().columns();
@@ -165,9 +180,7 @@ TEST_F(ReviewAtWork, TheDigitsMeanWhatTheUserSays) {
 }
 
 TEST_F(ReviewAtWork, ARuleDecidesAllInOneStepThatCanBeUndone) {
-  paint(2, 6, 5, 5, 200);
-  paint(2, 3, 12, 12, 300);
-  document().settle();
+  paint_long_and_short();
   const std::size_t lines = document().choices().lines->size();
   app_->dialogs.text = [](const auto&, const std::string& label, const std::string& rule) {
     EXPECT_THAT(label, HasSubstr("depth and length in m"));
@@ -187,9 +200,7 @@ TEST_F(ReviewAtWork, ARuleDecidesAllInOneStepThatCanBeUndone) {
 }
 
 TEST_F(ReviewAtWork, ARuleTakesWhatTheFilterOfItsListTakes) {
-  paint(2, 6, 5, 5, 200);
-  paint(2, 3, 12, 12, 300);
-  document().settle();
+  paint_long_and_short();
   WindowParams window = workspace().window.values();
   window.units.lengths = LengthUnit::feet;
   workspace().window.assign(window);
@@ -208,12 +219,7 @@ TEST_F(ReviewAtWork, ARuleTakesWhatTheFilterOfItsListTakes) {
 }
 
 TEST_F(ReviewAtWork, ARuleReachesAllObservationsAtOnce) {
-  paint(2, 3, 5, 5, 200);
-  document().settle();
-  ASSERT_TRUE(document().show(1));
-  document().settle();
-  paint(2, 4, 5, 5, 200);
-  document().settle();
+  paint_in_each_observation(2, 4);
   ASSERT_TRUE(review().decide_all("pings > 1 -> reject"));
   document().settle();
   EXPECT_EQ(with_status("rejected"), 2);
@@ -291,12 +297,7 @@ TEST_F(ReviewAtWork, AnotherSchoolEndsTheChoiceOfSeveral) {
 }
 
 TEST_F(ReviewAtWork, ACommentIsOfAllThatAreSelectedInWhicheverObservation) {
-  paint(2, 3, 5, 5, 200);
-  document().settle();
-  ASSERT_TRUE(document().show(1));
-  document().settle();
-  paint(2, 4, 5, 5, 200);
-  document().settle();
+  paint_in_each_observation(2, 4);
   review().select(0);
   review().choose({0, 1});
   app_->dialogs.text = [](const std::string& title, const auto&, const std::string& now) {
@@ -336,12 +337,7 @@ TEST_F(ReviewAtWork, EachDecisionTellsHowManyAreLeft) {
 }
 
 TEST_F(ReviewAtWork, UndoOfADecisionBringsItsSchoolBackIntoSight) {
-  paint(2, 3, 5, 5, 200);
-  document().settle();
-  ASSERT_TRUE(document().show(1));
-  document().settle();
-  paint(8, 9, 5, 5, 200);
-  document().settle();
+  paint_in_each_observation(8, 9);
   press("review.next");
   const SchoolName first = *workspace().school();
   press("review.reject");

@@ -48,7 +48,7 @@ std::vector<SchoolLayer> school_layers(const Workspace& workspace, std::int64_t 
     layers.push_back({school->number, i == selected,
                       mask_layer(std::shared_ptr<const PingMask>(school, &there->mask), drawn_colour(*school, theme),
                                  school->masks.decided.status),
-                      school_title(*school)});
+                      school_title(*school), !rejected});
   }
   if (const auto found = document.propagating().find(ping_index);
       found != document.propagating().end() && display.masks) {

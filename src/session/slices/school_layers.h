@@ -21,7 +21,8 @@ struct SchoolLayer {
   std::int64_t number = 0;  ///< of the school; 0 = the preview, or a propagation that runs
   bool selected = false;
   MaskLayer layer;
-  std::string title = {};  ///< "school 3 (north wall)"
+  std::string title = {};     ///< "school 3 (north wall)"
+  bool casts_shadow = false;  ///< it takes sound out of beams: a school that no human rejected
 };
 
 /// A mask in a colour, its outline drawn as that of schools of this status.

@@ -10,6 +10,7 @@
 
 #include "base/units.h"
 #include "pipeline/stages/placements.h"
+#include "pipeline/stages/voxel_statistics.h"
 #include "pipeline/stages/weak_samples.h"
 #include "publish/reports/sample_looks.h"
 #include "session/looks/screen_theme.h"
@@ -135,17 +136,17 @@ Result<SlicePicture> slice_of(const SliceWish& wish, PixelSize size) {
   if (const auto below_db = weak_below(wish.display)) {
     data.flags = marked_flags(wish, *below_db);
   }
-  std::vector<MaskLayer> whole;  // of schools; what is only tried casts no shadow
+  std::vector<const PingMask*> casting_shadow;
   for (const SchoolLayer& school : wish.layers) {
     MaskLayer layer = school.layer;
-    if (school.number != 0 && wish.display.shadow) whole.push_back(layer);
+    if (school.casts_shadow) casting_shadow.push_back(school.layer.mask.get());
     layer.mask = fuzzy_area(layer.mask, wish.display.fuzzy_above);
     data.masks.push_back(std::move(layer));
   }
   data.refused = wish.refused;
   if (wish.display.shadow) {
-    data.shadow_from = shadow_of_schools(*wish.ping, wish.observation->sector(), whole,
-                                         wish.observation->recipe().measure.extinction, wish.display);
+    data.shadow_from = shadow_from(*wish.ping, wish.observation->sector(), casting_shadow,
+                                   wish.observation->recipe().measure.extinction, wish.display.shadow_db);
   }
   SliceStyle style = slice_style(wish.display, *wish.colours);
   style.north_up = wish.north_up;

@@ -288,16 +288,6 @@ TEST(FuzzyArea, KeepsWhatIsSurer) {
   EXPECT_EQ(*fuzzy_area(mask, 0.2), (PingMask{{{3, 10, 1}, {3, 12, 1}}, {100, 200}}));  // 51 / 255 is not above 0.2
 }
 
-TEST(SchoolsOf, WhatAHumanRejectedCastsNoShadow) {
-  const auto mask = std::make_shared<const PingMask>(PingMask{{{3, 10, 1}}, {255}});
-  const std::vector<MaskLayer> layers{mask_layer(nullptr, {}, "accepted"), mask_layer(mask, {}, "rejected")};
-  EXPECT_TRUE(schools_of(layers).empty());
-  for (const char* status : {"unreviewed", "accepted", "corrected"}) {
-    const std::vector<MaskLayer> layer{mask_layer(mask, {}, status)};
-    EXPECT_EQ(schools_of(layer), std::vector<const PingMask*>{mask.get()}) << status;
-  }
-}
-
 // At any size: whole within the axes, off the school, off the ship and off all other words.
 TEST_F(SlicesAtWork, TheSelectedSchoolsNameIsWholeAndLiesOnNothing) {
   app_.click(app_.top(), bright());
@@ -342,7 +332,8 @@ TEST_F(SlicesAtWork, TheSelectedSchoolsNameIsWholeAndLiesOnNothing) {
   EXPECT_GE(named, 7) << "there is room for it almost always";
 }
 
-TEST_F(SlicesAtWork, TheOutlineTellsWhatAHumanSaid) {
+// What was rejected is no school, and takes no sound out of the beams.
+TEST_F(SlicesAtWork, OutlineAndShadowTellWhatAHumanSaid) {
   app_.click(app_.top(), bright());
   app_.settle();
   const Theme theme = light_theme({480, 360});
@@ -350,16 +341,19 @@ TEST_F(SlicesAtWork, TheOutlineTellsWhatAHumanSaid) {
     const auto layers = school_layers(workspace(), app_.document().ping(), theme);
     const auto found =
         std::find_if(layers.begin(), layers.end(), [](const SchoolLayer& one) { return one.number > 0; });
-    return found == layers.end() ? MaskLayer{} : found->layer;
+    return found == layers.end() ? SchoolLayer{} : *found;
   };
-  EXPECT_EQ(layer().line, OutlineLine::dashed);
+  EXPECT_EQ(layer().layer.line, OutlineLine::dashed);
+  EXPECT_TRUE(layer().casts_shadow);
   app_.ask("review.accept");
   app_.settle();
-  EXPECT_EQ(layer().line, OutlineLine::solid);
+  EXPECT_EQ(layer().layer.line, OutlineLine::solid);
+  EXPECT_TRUE(layer().casts_shadow);
   app_.ask("review.reject");
   app_.settle();
-  EXPECT_EQ(layer().line, OutlineLine::dotted);
-  EXPECT_NEAR(255.0 * static_cast<double>(layer().rgb[0]), theme.muted.r, 0.5);
+  EXPECT_EQ(layer().layer.line, OutlineLine::dotted);
+  EXPECT_FALSE(layer().casts_shadow);
+  EXPECT_NEAR(255.0 * static_cast<double>(layer().layer.rgb[0]), theme.muted.r, 0.5);
 }
 
 TEST(DrawnColour, RejectedIsGreyAndNoSchoolLooksLikeThePreview) {

@@ -36,6 +36,7 @@ void add_masks(LiveVolumeInput& input, const std::vector<SchoolLayer>& layers) {
     input.masks.back().selected = school.selected;
     input.names.push_back(tried ? std::string() : std::to_string(school.number));
     if (tried) ++input.tried;
+    if (school.casts_shadow) input.casting_shadow.push_back(school.layer.mask);
     if (!tried) input.legend.emplace_back(colour_of(school.layer), school.title);
   }
 }

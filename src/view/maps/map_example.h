@@ -12,6 +12,7 @@
 #include "geo/geodesic.h"
 #include "model/product.h"
 #include "view/frame_description.h"
+#include "view/volume/mask_plan.h"
 
 namespace sonar::map_example {
 
@@ -78,6 +79,29 @@ inline void add_school(ObservationProduct& p, std::int64_t id, Geographic at, in
     p.masks.push_back({id, i, mask});
   }
   p.schools.push_back(school);
+}
+
+struct ComparedCells {
+  int lit = 0;        ///< where some confidence is expected
+  int different = 0;  ///< where the patch has another
+};
+/// All cells of a raster.
+/// expected  confidence that belongs there, 0 = none, of (x, y)
+template <class Expected>
+ComparedCells compared(const MaskPatch& patch, const PlanRaster& raster, const Expected& expected) {
+  ComparedCells cells;
+  for (int y = 0; y < raster.height; ++y) {
+    for (int x = 0; x < raster.width; ++x) {
+      const int column = x - patch.first_x;
+      const int row = y - patch.first_y;
+      const bool inside = column >= 0 && column < patch.width && row >= 0 && row < patch.height;
+      const int found = inside ? patch.confidence.at(static_cast<std::size_t>(row * patch.width + column)) : 0;
+      const int due = expected(x, y);
+      cells.lit += due > 0 ? 1 : 0;
+      cells.different += found != due ? 1 : 0;
+    }
+  }
+  return cells;
 }
 
 /// Whether a text of the picture holds these words.

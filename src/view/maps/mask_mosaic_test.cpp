@@ -62,25 +62,11 @@ TEST(MaskPlan, ThePatchIsTheMaximumOverAllVoxelsThere) {
   PlanRaster raster{20.0, -80.0, 0.0, 0.25, -0.25, 0.0, 320, 160};  // bow up, starboard right, 0.25 m
   const MaskPatch patch = patch_of(plan_from_above(sector, mask, 0.05), raster);
   ASSERT_FALSE(patch.empty());
-  int lit = 0;
-  int different = 0;
-  for (int y = 0; y < raster.height; ++y) {
-    for (int x = 0; x < raster.width; ++x) {
-      const std::uint8_t expected = from_above(sector, mask, 20.0 - 0.25 * y, -80.0 + 0.25 * x);
-      const bool inside = x >= patch.first_x && x < patch.first_x + patch.width && y >= patch.first_y &&
-                          y < patch.first_y + patch.height;
-      const std::uint8_t found =
-          inside
-              ? patch.confidence[static_cast<std::size_t>(y - patch.first_y) * static_cast<std::size_t>(patch.width) +
-                                 static_cast<std::size_t>(x - patch.first_x)]
-              : 0;
-      lit += expected > 0 ? 1 : 0;
-      different += found != expected ? 1 : 0;
-    }
-  }
-  EXPECT_GT(lit, 1500);
+  const auto cells = map_example::compared(
+      patch, raster, [&](int x, int y) { return from_above(sector, mask, 20.0 - 0.25 * y, -80.0 + 0.25 * x); });
+  EXPECT_GT(cells.lit, 1500);
   // Bins of 5 cm and stamped bin middles differ from the exact bounds in a hair of the cells along the rim.
-  EXPECT_LT(different, lit / 40);
+  EXPECT_LT(cells.different, cells.lit / 40);
 }
 
 TEST(MaskPlan, NothingIsLostOnACoarseRaster) {

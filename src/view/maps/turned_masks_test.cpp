@@ -61,31 +61,19 @@ TEST(TurnedMasks, ACellTakesTheSurestVoxelBelowIt) {
     placement.pitch_rad = rad_from_deg(pitch_deg);
     const MaskPatch patch = patch_from_above(sector, mask, placement, raster);
     ASSERT_FALSE(patch.empty());
-    int lit = 0;
-    int different = 0;
-    for (int y = 0; y < raster.height; ++y) {
-      for (int x = 0; x < raster.width; ++x) {
-        std::uint8_t expected = 0;
-        for (double z = -20.0; z <= 40.0; z += 0.1) {
-          const Point<Vessel> pitched =
-              turned({20.0 - 0.5 * y, -70.0 + 0.5 * x, z}, {0.0, 1.0, 0.0}, -placement.pitch_rad);
-          const Point<Vessel> hull = turned(pitched, {1.0, 0.0, 0.0}, -placement.roll_rad);
-          expected = std::max(expected, confidence_there(sector, mask, hull));
-        }
-        const bool inside = x >= patch.first_x && x < patch.first_x + patch.width && y >= patch.first_y &&
-                            y < patch.first_y + patch.height;
-        const std::uint8_t found =
-            inside
-                ? patch.confidence[static_cast<std::size_t>(y - patch.first_y) * static_cast<std::size_t>(patch.width) +
-                                   static_cast<std::size_t>(x - patch.first_x)]
-                : 0;
-        lit += expected > 0 ? 1 : 0;
-        different += found != expected ? 1 : 0;
+    const auto cells = map_example::compared(patch, raster, [&](int x, int y) {
+      std::uint8_t surest = 0;
+      for (double z = -20.0; z <= 40.0; z += 0.1) {
+        const Point<Vessel> pitched =
+            turned({20.0 - 0.5 * y, -70.0 + 0.5 * x, z}, {0.0, 1.0, 0.0}, -placement.pitch_rad);
+        const Point<Vessel> hull = turned(pitched, {1.0, 0.0, 0.0}, -placement.roll_rad);
+        surest = std::max(surest, confidence_there(sector, mask, hull));
       }
-    }
-    EXPECT_GT(lit, 300);
+      return surest;
+    });
+    EXPECT_GT(cells.lit, 300);
     // Chords for arcs, and steps of 0.1 m down, tell in a few cells along the rim.
-    EXPECT_LT(different, lit / 20) << roll_deg << " " << pitch_deg;
+    EXPECT_LT(cells.different, cells.lit / 20) << roll_deg << " " << pitch_deg;
   }
 }
 
