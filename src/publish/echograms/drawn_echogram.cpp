@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <utility>
 
+#include "pipeline/stages/placements.h"
 #include "pipeline/stages/voxel_statistics.h"
 #include "publish/echograms/echogram_columns.h"
 #include "publish/reports/sample_looks.h"
@@ -98,9 +100,10 @@ Result<DrawnEchogram> of_beams(DrawnObservation& observation, const PingSpan& sp
   const auto of = asked_beam(observation, *sector, options);
   if (!of) return pass_on(of);
   Engine* engine = observation.engine();
+  std::optional<ProductPlacements> alone;
+  if (engine == nullptr) alone.emplace(observation.product());
   const auto placement = [&](std::int64_t ping) {
-    if (engine != nullptr) return engine->placement(ping);
-    return observation.product().pings[static_cast<std::size_t>(ping)].placement();
+    return alone ? alone->of(observation.product().pings[static_cast<std::size_t>(ping)]) : engine->placement(ping);
   };
   std::vector<Placement> placements;
   for (std::int64_t i = 0; i < span.count; ++i) placements.push_back(placement(span.first + i));

@@ -52,8 +52,9 @@ std::optional<Voxel> EchogramModel::voxel_at(PixelPoint at) const {
   if (here->plot->of.name.observation != shown->index() || here->ping >= shown->pings()) return std::nullopt;
   if (here->ping != workspace_.document.ping()) return std::nullopt;  // the cursor is one of the ping on show
   const EchogramRow row = row_of(here->plot->of.name, here->ping);
-  if (row.step_m == 0.0) return std::nullopt;
-  const double sample = std::round((here->height_m - row.first_m) / row.step_m);
+  const auto at_height = row.sample_at(here->height_m);
+  if (!at_height) return std::nullopt;
+  const double sample = std::round(*at_height);
   if (!(sample >= 0.0 && sample < shown->sector().range().count)) return std::nullopt;
   const int beams = shown->sector().beams();
   return Voxel{row.row / beams, row.row % beams, static_cast<int>(sample)};
@@ -236,11 +237,11 @@ std::string EchogramModel::hint(PixelPoint at) const {
     const double other_m = here->height_m + (depth ? -1.0 : 1.0) * navigation.transducer_depth_m;
     add_place(depth ? other_m : here->height_m, depth ? here->height_m : other_m);
   } else if (shown && here->ping < shown->pings()) {
-    const EchogramRow row = row_of(name, here->ping);
-    const double sample = row.step_m == 0.0 ? 0.0 : (here->height_m - row.first_m) / row.step_m;
-    EchogramName deep = name;
-    deep.of.height = EchogramHeight::depth;
-    add_place(shown->sector().range().range_m(sample), row_of(deep, here->ping).height_m(sample));
+    if (const auto sample = row_of(name, here->ping).sample_at(here->height_m)) {
+      EchogramName deep = name;
+      deep.of.height = EchogramHeight::depth;
+      add_place(shown->sector().range().range_m(*sample), row_of(deep, here->ping).height_m(*sample));
+    }
   }
   const EchogramPyramid* echogram = here->plot->of.echogram.get();
   if (echogram == nullptr || here->ping >= static_cast<std::int64_t>(echogram->pings())) return text;

@@ -20,7 +20,7 @@ namespace sonar {
 /// What an echogram's upright axis is.
 enum class EchogramHeight : std::uint8_t {
   range,  ///< slant range from the transducer
-  depth,  ///< below the mean sea surface, heave and attitude of each ping included
+  depth,  ///< below the mean sea surface, heave, attitude and rays of each ping included
 };
 inline constexpr std::array<std::string_view, 2> kEchogramHeightNames{"range", "depth"};
 
@@ -32,12 +32,16 @@ struct EchogramOf {
   friend auto operator<=>(const EchogramOf&, const EchogramOf&) = default;
 };
 
-/// Where a beam's samples lie along the upright axis in one ping: sample i at first_m + i * step_m.
+/// Where a beam's samples lie along the upright axis in one ping: evenly between places on its way, which is straight or
+/// bends along a ray.
 struct EchogramRow {
-  int row = 0;  ///< fan * beams + beam
-  double first_m = 0.0;
-  double step_m = 1.0;
-  [[nodiscard]] double height_m(double sample) const { return first_m + sample * step_m; }
+  int row = 0;                              ///< fan * beams + beam
+  double apart = 1.0;                       ///< samples from a place to the next
+  std::vector<double> heights_m{0.0, 1.0};  ///< of samples 0, apart, 2 apart ...; two at least
+  [[nodiscard]] double height_m(double sample) const;
+  /// The sample whose cell lies at a height, the nearest to the sonar where the ray comes there more than once; empty where
+  /// none does, or all of them.
+  [[nodiscard]] std::optional<double> sample_at(double height_m) const;
   friend bool operator==(const EchogramRow&, const EchogramRow&) = default;
 };
 

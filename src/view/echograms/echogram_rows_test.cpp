@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <set>
 
 #include "base/units.h"
+#include "geo/refraction.h"
 #include "view/maps/map_example.h"
 
 namespace sonar {
@@ -128,6 +130,62 @@ TEST(EchogramRows, DepthIsThatOfEachVoxelOfEachPing) {
   }
 }
 
+/// Depth of sound from 7 m, where its speed is 1490 m/s and rises by g m/s each metre down. By hand: it goes on a circle,
+/// artanh of the dip's sine falls by g each second, and the speed goes with the dip's cosine (Snell).
+double on_circle_m(double sine, double range_m, double g) {
+  const double before = std::atanh(sine);
+  return 7.0 + 1490.0 / g * (std::cosh(before) / std::cosh(before - g * range_m / 1490.0) - 1.0);
+}
+
+/// A ship that lists, in water where speed changes by g m/s each metre.
+Placement listing(double roll_deg, double g) {
+  Placement out{{60.0, 5.0}, 0.3, 7.0, rad_from_deg(roll_deg)};
+  const SoundProfile profile{{0.0, 1490.0 - 7.0 * g}, {200.0, 1490.0 + 193.0 * g}};
+  out.rays = std::make_shared<const Refraction>(profile, 7.0, 1490.0, 120.0);
+  return out;
+}
+
+// Beam 1 looks to port, 2.5 degrees abaft the beam. Rays may be 0.1 m off; straight paths are 2.9 to 6.7 m off.
+TEST(EchogramRows, DepthFollowsRaysAndRollBothWays) {
+  const Sea sea;
+  for (const double g : {-2.0, 2.0}) {
+    for (const double roll_deg : {0.0, -8.0}) {
+      const Placement ping = listing(roll_deg, g);
+      const EchogramRow row = echogram_rows(sea.sector, ping, {0, 1, EchogramHeight::depth}).front();
+      const double roll = rad_from_deg(roll_deg);
+      const double sine = std::sin(rad_from_deg(25.0)) * std::cos(roll) -
+                          std::cos(rad_from_deg(25.0)) * std::sin(rad_from_deg(87.5)) * std::sin(roll);
+      for (int s = 1; s < 60; ++s) {
+        EXPECT_NEAR(row.height_m(s), on_circle_m(sine, -1.0 + 2.0 * s, g), 0.1) << g << " " << roll_deg << " " << s;
+        EXPECT_NEAR(row.sample_at(row.height_m(s)).value_or(-1.0), s, 1e-6);
+      }
+      EXPECT_GT(std::abs(row.height_m(59) - 7.0 - 117.0 * sine), 2.5) << "bending is to be seen";
+    }
+  }
+}
+
+// 5 degrees down where speed rises: lowest after 65 m, and at 117 m it has come up to where it was after 13 m.
+TEST(EchogramRows, ARayThatTurnsBackHasItsLowestPointAndTheNearerSampleOfADepth) {
+  const Sea sea;
+  const Placement ping = listing(0.0, 2.0);
+  const EchogramOf of{2, 1, EchogramHeight::depth};
+  const EchogramRow row = echogram_rows(sea.sector, ping, of).front();
+  const double lowest_m = 7.0 + 745.0 * (1.0 / std::cos(rad_from_deg(5.0)) - 1.0);
+  EXPECT_NEAR(std::ranges::max(row.heights_m), lowest_m, 0.1);
+  EXPECT_LT(row.height_m(59), lowest_m - 1.0);
+  EXPECT_LT(row.sample_at(row.height_m(59)).value_or(59.0), 20.0);
+  EXPECT_FALSE(row.sample_at(lowest_m + 0.5));
+  EXPECT_FALSE(row.sample_at(5.0));
+  // Every sample from the surface down has a bin, those on the way up in the bins of those on the way down.
+  const EchogramRange range = echogram_range(sea.sector, std::span(&ping, 1), of);
+  const auto column = sea.column(of, range, ping);
+  double volume_m3 = 0.0;
+  for (int s = 0; s < 60; ++s) volume_m3 += sea.sector.volume_m3(2, 1, s);
+  double found_m3 = 0.0;
+  for (const EchogramCell& cell : column) found_m3 += cell.volume_m3;
+  EXPECT_NEAR(found_m3, volume_m3, 1e-5 * volume_m3);
+}
+
 TEST(EchogramRows, AHorizontalBeamHasOneDepth) {
   const Sector level({-0.1, 0.0}, {4.7}, {0.0, 2.0, 50});
   const Placement ping{{60.0, 5.0}, 0.0, 7.0};
@@ -135,6 +193,7 @@ TEST(EchogramRows, AHorizontalBeamHasOneDepth) {
   EXPECT_GT(range.bins, 1);
   for (const EchogramRow& row : echogram_rows(level, ping, {1, 0, EchogramHeight::depth})) {
     EXPECT_NEAR(row.height_m(49), 7.0, 1e-9);
+    EXPECT_FALSE(row.sample_at(7.0)) << "all of them lie there";
     EXPECT_GE(bin_of(range, row.height_m(49)), 0);
   }
 }

@@ -58,6 +58,12 @@ void EchogramColumn::lay(double first_m, double step_m) {
   }
 }
 
+void EchogramColumn::lay(std::span<const double> heights_m) {
+  SONAR_CHECK(heights_m.size() == bin_of_.size());
+  first_m_ = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < bin_of_.size(); ++i) bin_of_[i] = bin_of(range_, heights_m[i]);
+}
+
 void EchogramColumn::add(const Beam& beam, SampleFlags hidden) {
   const std::size_t samples = std::min({bin_of_.size(), beam.counts.size(), beam.flags.size(), beam.volumes_m3.size()});
   for (std::size_t i = 0; i < samples; ++i) {

@@ -58,6 +58,8 @@ class EchogramColumn {
   };
   /// Where the samples of the beams that follow lie: sample i at first_m + i * step_m.
   void lay(double first_m, double step_m);
+  /// Where each of them lies; [samples], in metres.
+  void lay(std::span<const double> heights_m);
   /// Flagged samples, and those outside the range, are left out.
   void add(const Beam& beam, SampleFlags hidden);
   [[nodiscard]] std::vector<EchogramCell> cells() const;
