@@ -10,7 +10,6 @@
 
 #include "base/number_text.h"
 #include "io/product_file.h"
-#include "pipeline/stages/observe.h"
 #include "pipeline/tasks/merge.h"
 #include "pipeline/tasks/plan.h"
 #include "pipeline/tasks/run.h"
@@ -164,43 +163,6 @@ fs::path product_in(std::span<const fs::path> work_folders, const std::string& o
     if (known && known->input_hash == key) return file;
   }
   return {};
-}
-
-namespace {
-
-bool same_pings(const ObservationProduct& product, const ObservationFiles& observation) {
-  const auto same_time = [](const PingNavigation& a, const PingNavigation& b) { return a.time == b.time; };
-  return product.source == source_of(observation) && product.grid && observation.grid &&
-         product.grid->grid == *observation.grid && product.grid->range == observation.range &&
-         std::ranges::equal(product.pings, observation.navigation, same_time);
-}
-
-/// Parameters that were not there yet have their defaults, whatever the text's hash is.
-bool same_recipe(const ObservationProduct& product, Recipe recipe) {
-  auto made_under = recipe_from_text(product.recipe_json);
-  if (!made_under) return false;
-  made_under->automatic = recipe.automatic = true;
-  return recipe_hash(*made_under) == recipe_hash(recipe);
-}
-
-}  // namespace
-
-std::optional<OtherFind> find_of_another_version(std::span<const fs::path> work_folders,
-                                                 const ObservationFiles& observation, const Recipe& recipe,
-                                                 const std::string& version) {
-  for (const fs::path& folder : work_folders) {
-    const auto plan = has_plan(folder) ? read_plan(folder / kPlan) : Result<Plan>(fail(ErrorCode::not_found, ""));
-    if (!plan || !plan->session.empty()) continue;
-    const fs::path file = product_path(folder, observation.name);
-    std::error_code absent;
-    if (!fs::exists(file, absent)) continue;
-    auto product = read_product(file);
-    if (!product || (product->program_version == version && product->stage_versions == kStageVersions)) continue;
-    if (!same_pings(*product, observation) || !same_recipe(*product, recipe)) continue;
-    product->background_db = {};
-    return OtherFind{file, std::make_shared<const ObservationProduct>(std::move(*product))};
-  }
-  return std::nullopt;
 }
 
 }  // namespace sonar

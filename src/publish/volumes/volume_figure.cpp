@@ -14,7 +14,9 @@
 #include "publish/reports/sample_looks.h"
 #include "publish/volumes/volume_legend.h"
 #include "view/colour_bar.h"
+#include "view/label_room.h"
 #include "view/slices/slice_picture.h"
+#include "view/volume/context_layout.h"
 #include "view/volume/distance_bar.h"
 #include "view/volume/earth_pose.h"
 
@@ -129,19 +131,38 @@ std::vector<PixelPoint> places_of_refused(const VolumeFigure& figure, const Volu
   return out;
 }
 
-/// Of the schools in the picture: neither legend nor scale bar lies on them.
-std::vector<ConvexOutline> outlines_of_schools(const VolumeFigure& figure, const VolumePlace& place,
-                                               const VolumeView& view) {
+/// The sector, the schools, and the words that are written over them.
+KeptClear kept_clear_in(const VolumeFigure& figure, const ContextParams& around, const VolumePlace& place,
+                        const VolumeView& view, const std::vector<TextItem>& words) {
   const CameraBasis eye = basis(view.camera, view.size);
-  std::vector<ConvexOutline> out;
+  KeptClear out;
+  const auto in_picture = [&place](ConvexOutline shape) {
+    for (PixelPoint& p : shape) p = {place.rect.x + p.x / place.scale, place.rect.y + p.y / place.scale};
+    return shape;
+  };
+  out.sector = in_picture(sector_outline(figure.sector(), around, eye));
   for (const MaskLayer& layer : figure.masks) {
     const auto school = layer.mask ? school_place(figure.sector(), *layer.mask) : std::nullopt;
-    if (!school) continue;
-    out.push_back(school_outline(*school, eye));
-    for (PixelPoint& p : out.back()) {
-      p = {place.rect.x + p.x / place.scale, place.rect.y + p.y / place.scale};
-    }
+    if (school) out.always.push_back(in_picture(school_outline(*school, eye)));
   }
+  for (const TextItem& item : words) out.always.push_back(outline_of(LabelRoom::box_of(item)));
+  return out;
+}
+
+/// What is written over the volume: why nothing is shown, and what nobody may miss.
+std::vector<TextItem> words_over(const VolumeFigure& figure, const PictureOptions& options, const VolumePlace& place,
+                                 const VolumeView& view, const RayImage& rays) {
+  const Theme& theme = place.theme;
+  const PixelPoint middle{place.rect.x + 0.5 * place.rect.width, place.rect.y + 0.5 * place.rect.height};
+  const PixelPoint top{middle.x, place.rect.y + 1.2 * theme.text_px};
+  std::vector<TextItem> out;
+  const auto write = [&](PixelPoint at, const std::string& words, bool bold) {
+    const std::string line = elided_line(words, theme.text_px, place.rect.width);
+    if (line.empty()) return;
+    out.push_back({at, line, theme.text_px, theme.text, TextAnchor::centre, 0.0, bold, theme.halo});
+  };
+  write(middle, nothing_shown(figure, options, view, rays), false);
+  write(top, figure.mark, true);
   return out;
 }
 
@@ -153,39 +174,45 @@ void add_refused(FrameDescription& frame, const VolumeFigure& figure, const Volu
   }
 }
 
-/// The scale bar in the lower right corner, else along the edges; none where there is no room for it.
+/// The scale bar in the lower right corner, else along the edges; over the sector where there is no room beside it, and none
+/// where there is no room at all.
 /// returns  what it covers
 std::optional<PixelRect> add_scale_bar(FrameDescription& frame, const VolumePlace& place, const Camera& camera,
-                                       std::span<const ConvexOutline> kept_clear) {
+                                       const KeptClear& kept_clear) {
   const Theme& theme = place.theme;
   const PixelSize size{static_cast<int>(place.rect.width), static_cast<int>(place.rect.height)};
   const auto bar = distance_bar(camera, size, std::min(0.25 * size.width, 14.0 * theme.text_px), theme.units.length());
   if (!bar) return std::nullopt;
   const double gap = 0.6 * theme.text_px;
-  const PixelRect inner{place.rect.x + gap, place.rect.y + gap, place.rect.width - 2.0 * gap,
-                        place.rect.height - 2.0 * gap};
   const PixelRect extent = distance_bar_place(*bar, 0.0, 0.0, theme);
-  const auto found = free_place(inner, extent.width, extent.height, Corner::lower_right, kept_clear);
-  if (found) add_distance_bar(frame, *bar, *found, theme);
-  return found;
+  for (const bool over_sector : {false, true}) {
+    const auto found = place_off(kept_clear, over_sector, place.rect, extent.width + 2.0 * gap,
+                                 extent.height + 2.0 * gap, Corner::lower_right);
+    if (!found) continue;
+    const PixelRect covered{found->x + gap, found->y + gap, extent.width, extent.height};
+    add_distance_bar(frame, *bar, covered, theme);
+    return covered;
+  }
+  return std::nullopt;
 }
 
-/// Labels of the surroundings and the scale bar, which keep off the legend and off each other.
-/// kept_clear  what the scale bar does not lie on
-void add_labels(FrameDescription& frame, const VolumeFigure& figure, const PictureOptions& options,
+/// Labels of the surroundings and the scale bar, which keep off the legend, off other words and off each other.
+void add_labels(FrameDescription& frame, const VolumeFigure& figure, const ContextParams& around,
                 const VolumePlace& place, const VolumeView& view, const PixelRect& legend,
-                std::vector<ConvexOutline> kept_clear) {
+                const std::vector<TextItem>& words, KeptClear kept_clear) {
   const Theme& theme = place.theme;
   const PixelSize size{static_cast<int>(place.rect.width), static_cast<int>(place.rect.height)};
   FrameDescription labels{size, theme.background, {}, {}};
-  const auto within = [&](PixelRect rect) {
+  std::vector<PixelRect> taken;
+  const auto take = [&](PixelRect rect) {
     rect.x -= place.rect.x;
     rect.y -= place.rect.y;
-    return rect;
+    taken.push_back(rect);
   };
-  std::vector<PixelRect> taken{within(legend)};
-  kept_clear.push_back(outline_of(legend));
-  if (const auto bar = add_scale_bar(frame, place, view.camera, kept_clear)) taken.push_back(within(*bar));
+  take(legend);
+  for (const TextItem& item : words) take(LabelRoom::box_of(item));
+  kept_clear.always.push_back(outline_of(legend));
+  if (const auto bar = add_scale_bar(frame, place, view.camera, kept_clear)) take(*bar);
   const double reach = mark_reach_px(theme);
   for (const PixelPoint& mark : places_of_refused(figure, place, view)) {
     if (std::isnan(mark.x)) continue;
@@ -193,8 +220,7 @@ void add_labels(FrameDescription& frame, const VolumeFigure& figure, const Pictu
   }
   OpaqueView opaque{view.size, {}};
   if (view.opaque_m) opaque.metres = *view.opaque_m;
-  add_context_labels(labels, figure.sector(), volume_surroundings(figure, options), basis(view.camera, size), theme,
-                     opaque, taken);
+  add_context_labels(labels, figure.sector(), around, basis(view.camera, size), theme, opaque, taken);
   const auto move = [&place](PixelPoint& p) { p = {p.x + place.rect.x, p.y + place.rect.y}; };
   for (auto& item : labels.items) {
     if (auto* text = std::get_if<TextItem>(&item)) move(text->at);
@@ -302,22 +328,14 @@ FrameDescription volume_figure_frame(const VolumeFigure& figure, const PictureOp
   const Theme& theme = place.theme;
   FrameDescription frame{options.size, theme.background, figure.title, {}};
   frame.items.emplace_back(ImageItem{place.rect, std::make_shared<const Image>(between(context, rays, work)), false});
-  const std::vector<ConvexOutline> schools = outlines_of_schools(figure, place, view);
-  const PlacedLegend legend = placed_legend(figure, options, place.rect, theme, schools);
-  if (options.volume.context) add_labels(frame, figure, options, place, view, legend.place, schools);
+  const std::vector<TextItem> words = words_over(figure, options, place, view, rays);
+  const ContextParams around = volume_surroundings(figure, options);
+  const KeptClear kept_clear = kept_clear_in(figure, around, place, view, words);
+  const PlacedLegend legend = placed_legend(figure, options, place.rect, theme, kept_clear);
+  if (options.volume.context) add_labels(frame, figure, around, place, view, legend.place, words, kept_clear);
   add_refused(frame, figure, place, view);
   add_volume_legend(frame, legend, theme);
-  const auto within = [&](const std::string& words) { return elided_line(words, theme.text_px, place.rect.width); };
-  if (const std::string words = within(nothing_shown(figure, options, view, rays)); !words.empty()) {
-    const PixelPoint middle{place.rect.x + 0.5 * place.rect.width, place.rect.y + 0.5 * place.rect.height};
-    frame.items.emplace_back(
-        TextItem{middle, words, theme.text_px, theme.text, TextAnchor::centre, 0.0, false, theme.halo});
-  }
-  if (!figure.mark.empty()) {
-    const PixelPoint top{place.rect.x + 0.5 * place.rect.width, place.rect.y + 1.2 * theme.text_px};
-    frame.items.emplace_back(
-        TextItem{top, within(figure.mark), theme.text_px, theme.text, TextAnchor::centre, 0.0, true, theme.halo});
-  }
+  frame.items.insert(frame.items.end(), words.begin(), words.end());
   add_colour_bars(frame, figure, options, place, view.masks.data_too);
   std::string line = view_line(figure, options, place, view.masks.data_too);
   if (legend.left_out) line += "; no room for the legend";

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <random>
 #include <string>
@@ -136,6 +138,107 @@ bool shortened_well(const std::string& words, const std::string& whole) {
   if (!words.ends_with("\u2026")) return false;
   const std::string kept = words.substr(0, words.size() - 3);
   return whole.starts_with(kept) && std::string(" ,;:").find(whole[kept.size()]) != std::string::npos;
+}
+
+/// Where a camera sees the sector's cells, from the sonar to their far ends.
+std::vector<PixelPoint> seen_of_sector(const Sector& sector, const VolumePlace& place, const CameraBasis& camera) {
+  constexpr int kSteps = 24;
+  std::vector<PixelPoint> out;
+  const auto between = [](double first, double last, int i) { return first + (last - first) * i / kSteps; };
+  const double lowest = sector.elevation_bounds(0).lower;
+  const double highest = sector.elevation_bounds(sector.fans() - 1).upper;
+  const double aft = sector.azimuth_bounds(0).lower;
+  const double fore = sector.azimuth_bounds(sector.beams() - 1).upper;
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int k = 0; k <= kSteps; ++k) {
+      const Point<Sonar> along = Sector::direction(between(lowest, highest, i), between(aft, fore, k));
+      for (int far = 1; far <= kSteps; ++far) {
+        const auto seen = camera.project(along * between(0.0, sector.range().range_m(sector.range().count - 1), far));
+        if (seen) out.push_back({place.rect.x + seen->pixel.x, place.rect.y + seen->pixel.y});
+      }
+    }
+  }
+  return out;
+}
+
+/// Whether a box of this size has room to spare in one of a picture's corners, off points and off a rectangle.
+bool a_corner_has_room(const PixelRect& picture, double width, double height, const std::vector<PixelPoint>& points,
+                       const PixelRect& off) {
+  for (const double x : {picture.x, picture.x + picture.width - width}) {
+    for (const double y : {picture.y, picture.y + picture.height - height}) {
+      const PixelRect box{x, y, width, height};
+      if (overlap(box, off)) continue;
+      if (std::ranges::none_of(points, [&](const PixelPoint& p) { return inside(box, p); })) return true;
+    }
+  }
+  return false;
+}
+
+PixelRect about(const PixelRect& a, const PixelRect& b) {
+  if (a.width == 0.0) return b;
+  const double x = std::min(a.x, b.x);
+  const double y = std::min(a.y, b.y);
+  return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
+}
+
+// Law: in 200 random views, from a small window's panel to a large screen, the legend and the scale bar lie on the sector only
+// where no corner of the picture has room for them beside it.
+TEST(VolumeFigure, LegendAndScaleBarKeepOffTheSectorInTwoHundredViews) {
+  VolumeFigure figure = schools_alone(6);  // but the first, at the sector's edge: it reaches out a little
+  figure.masks.erase(figure.masks.begin());
+  figure.names.erase(figure.names.begin());
+  figure.legend.erase(figure.legend.begin());
+  std::mt19937 random(20200106);
+  const auto even = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  constexpr std::array<PixelSize, 4> kSizes{{{400, 300}, {600, 400}, {720, 560}, {1280, 800}}};
+  int rooms = 0;
+  for (int view = 0; view < 200; ++view) {
+    PictureOptions options;
+    options.size = view % 50 == 49 ? PixelSize{3840, 2160} : kSizes[static_cast<std::size_t>(view) % kSizes.size()];
+    options.kind.volume.orbit_deg = even(-180.0, 180.0);
+    options.kind.volume.rise_deg = even(-70.0, 40.0);
+    options.kind.volume.zoom = even(0.4, 1.4);
+    options.volume.ship_length_m = 1.0;  // kept off too; here the sector alone is looked at
+    const auto place = volume_place(options);
+    ASSERT_TRUE(place);
+    const PixelRect& picture = place->rect;
+    const double em = place->theme.text_px;
+    const PixelSize size{static_cast<int>(picture.width), static_cast<int>(picture.height)};
+    const CameraBasis camera = basis(*volume_camera(figure.sector(), options, place->rays), size);
+    const std::vector<PixelPoint> sector = seen_of_sector(figure.sector(), *place, camera);
+    const auto on_sector = [&](const PixelRect& box) {
+      return std::ranges::any_of(sector, [&](const PixelPoint& p) { return inside(box, p); });
+    };
+    double wide = 0.0;
+    double lines = 0.0;
+    std::vector<std::string> of_legend;
+    for (const LegendRow& row : volume_legend(figure, options, picture, place->theme)) {
+      of_legend.push_back(row.words);
+      if (row.one_school) continue;
+      lines += 1.0;
+      wide = std::max(wide, text_width_px(row.words.c_str(), em));
+    }
+    PixelRect legend{};
+    PixelRect bar{};
+    for (const TextItem& text : words_in(frame_of(figure, options), picture)) {
+      const PixelRect box = LabelRoom::box_of(text);
+      const auto says = [&](const std::string& row) { return shortened_well(text.text, row); };
+      if (std::ranges::any_of(of_legend, says)) legend = about(legend, box);
+      if (text.text.ends_with("at the view's centre")) bar = {box.x, box.y, box.width, 2.3 * em};
+    }
+    // To spare: the sector's convex hull reaches a little beyond what is seen of it, the box beyond its words.
+    const double spare = 0.1 * picture.height + 3.0 * em;
+    if (lines > 0.0 && a_corner_has_room(picture, wide + spare, 1.5 * em * lines + spare, sector, {})) {
+      ++rooms;
+      EXPECT_FALSE(on_sector(legend)) << view;
+      EXPECT_GT(legend.width, 0.0) << view;
+    }
+    if (a_corner_has_room(picture, bar.width + spare, bar.height + spare, sector, legend)) {
+      EXPECT_FALSE(on_sector(bar)) << view;
+    }
+    EXPECT_FALSE(overlap(legend, bar)) << view;
+  }
+  EXPECT_GT(rooms, 20);
 }
 
 // Law: from 200 pixels on, under all palettes and in both themes, no words reach over the border, and what has no room is

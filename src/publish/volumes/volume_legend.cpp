@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kMostSchools = 12;
 constexpr double kMostOfHeight = 0.5;  ///< what the legend may take of the volume's height
+constexpr double kShort_em = 12.0;     ///< words that have room for their first part
 
 double line_of(const Theme& theme) { return 1.5 * theme.text_px; }
 
@@ -102,15 +103,29 @@ std::vector<LegendRow> volume_legend(const VolumeFigure& figure, const PictureOp
   return rows;
 }
 
+std::optional<PixelRect> place_off(const KeptClear& kept_clear, bool over_sector, const PixelRect& inside, double width,
+                                   double height, Corner corner) {
+  std::vector<ConvexOutline> shapes = kept_clear.always;
+  if (!over_sector) shapes.push_back(kept_clear.sector);
+  return free_place(inside, width, height, corner, shapes);
+}
+
 PlacedLegend placed_legend(const VolumeFigure& figure, const PictureOptions& options, const PixelRect& place,
-                           const Theme& theme, std::span<const ConvexOutline> kept_clear) {
+                           const Theme& theme, const KeptClear& kept_clear) {
   const std::vector<LegendRow> all = volume_legend(figure, options, place, theme);
   std::vector<LegendRow> fewer = all;
   std::erase_if(fewer, [](const LegendRow& row) { return row.one_school; });
-  for (const auto& rows : {all, fewer}) {
-    const PixelRect extent = extent_of(rows, theme);
-    const auto found = free_place(place, extent.width, extent.height, Corner::lower_left, kept_clear);
-    if (found) return {rows, *found, false};
+  std::vector<LegendRow> shorter = fewer;
+  for (LegendRow& row : shorter) {
+    const std::string words = elided_line(row.words, theme.text_px, kShort_em * theme.text_px);
+    if (!words.empty()) row.words = words;
+  }
+  for (const bool over_sector : {false, true}) {
+    for (const auto& rows : {all, fewer, shorter}) {
+      const PixelRect extent = extent_of(rows, theme);
+      const auto found = place_off(kept_clear, over_sector, place, extent.width, extent.height, Corner::lower_left);
+      if (found) return {rows, *found, false};
+    }
   }
   return {{}, {place.x, place.y + place.height, 0.0, 0.0}, true};
 }

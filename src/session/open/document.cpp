@@ -16,6 +16,7 @@
 #include "pipeline/journal/manual.h"
 #include "pipeline/journal/session_recipe.h"
 #include "pipeline/journal/taken_lines.h"
+#include "pipeline/tasks/decided_finds.h"
 #include "pipeline/tasks/work_folders.h"
 
 namespace sonar {
@@ -54,17 +55,19 @@ std::set<std::size_t> found_in(const std::vector<std::filesystem::path>& work_fo
   return found;
 }
 
-/// What other versions found in the rest.
+/// What other versions found in the rest, and runs that were given decisions.
 std::map<std::size_t, OtherFind> found_by_others(const std::vector<std::filesystem::path>& work_folders,
                                                  const SurveyFiles& survey, const Recipe& recipe,
-                                                 const std::string& program_version,
-                                                 const std::set<std::size_t>& found) {
+                                                 const std::string& program_version, std::set<std::size_t> found) {
   std::map<std::size_t, OtherFind> others;
   for (std::size_t i = 0; i < survey.observations.size() && !work_folders.empty(); ++i) {
     if (found.contains(i)) continue;
     auto other = find_of_another_version(work_folders, survey.observations[i], recipe, program_version);
-    if (other) others.emplace(i, std::move(*other));
+    if (!other) continue;
+    others.emplace(i, std::move(*other));
+    found.insert(i);
   }
+  others.merge(finds_of_decided_runs(work_folders, survey, recipe, found));
   return others;
 }
 

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include "base/units.h"
+#include "geo/geodesic.h"
 #include "view/axes.h"
 
 namespace sonar {
@@ -112,6 +115,92 @@ std::vector<Point<Sonar>> beam_outline(const Sector& sector, int beam) {
   }
   out.push_back(out.front());
   return out;
+}
+
+namespace {
+
+/// Directions to the sector's cells, a few degrees apart, the outer ones' edges among them.
+std::vector<double> outer_angles(AngleBounds first, AngleBounds last) {
+  const int steps = std::max(1, static_cast<int>(std::ceil((last.upper - first.lower) / rad_from_deg(4.0))));
+  std::vector<double> out;
+  for (int i = 0; i <= steps; ++i) out.push_back(first.lower + (last.upper - first.lower) * i / steps);
+  return out;
+}
+
+/// Where lines are seen that lie before the eye, or begin or end there.
+class SeenHull {
+ public:
+  explicit SeenHull(const CameraBasis& camera) : camera_(&camera) {}
+
+  void add(const Point<Sonar>& place) {
+    if (const auto at = camera_->project(place); at && at->depth_m >= kNearest_m) {
+      seen_.push_back({at->pixel.x, at->pixel.y});
+    }
+  }
+  /// What a line that goes behind the eye shows last; its ends have been added.
+  void add_crossing(const Point<Sonar>& from, const Point<Sonar>& to) {
+    const double a = depth_m(from) - kNearest_m;
+    const double b = depth_m(to) - kNearest_m;
+    if ((a < 0.0) == (b < 0.0)) return;
+    const auto at = camera_->project(from + (to - from) * (a / (a - b)));
+    if (at) seen_.push_back({at->pixel.x, at->pixel.y});
+  }
+  [[nodiscard]] ConvexOutline outline() && {
+    ConvexOutline out;
+    for (const PlanePoint& p : convex_hull(std::move(seen_))) out.push_back({p.x, p.y});
+    return out;
+  }
+
+ private:
+  static constexpr double kNearest_m = 0.1;
+  [[nodiscard]] double depth_m(const Point<Sonar>& place) const {
+    const Point<Sonar> arm = place - camera_->eye;
+    const Point<Sonar>& d = camera_->forward;
+    return arm.x * d.x + arm.y * d.y + arm.z * d.z;
+  }
+
+  const CameraBasis* camera_;
+  std::vector<PlanePoint> seen_;
+};
+
+/// A surface round a place, as rows of points: the lines between neighbours, and from the place.
+void add_round(SeenHull& hull, const Point<Sonar>& place, const std::vector<std::vector<Point<Sonar>>>& rows) {
+  hull.add(place);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t k = 0; k < rows[i].size(); ++k) {
+      hull.add(rows[i][k]);
+      hull.add_crossing(place, rows[i][k]);
+      if (k > 0) hull.add_crossing(rows[i][k - 1], rows[i][k]);
+      if (i > 0) hull.add_crossing(rows[i - 1][k], rows[i][k]);
+    }
+  }
+}
+
+}  // namespace
+
+ConvexOutline sector_outline(const Sector& sector, const ContextParams& params, const CameraBasis& camera) {
+  SeenHull hull(camera);
+  const auto azimuths = outer_angles(sector.azimuth_bounds(0), sector.azimuth_bounds(sector.beams() - 1));
+  std::vector<std::vector<Point<Sonar>>> far;
+  for (const double elevation : outer_angles(sector.elevation_bounds(0), sector.elevation_bounds(sector.fans() - 1))) {
+    far.emplace_back();
+    for (const double azimuth : azimuths) {
+      far.back().push_back(Sector::direction(elevation, azimuth) * far_range_m(sector));
+    }
+  }
+  add_round(hull, {0.0, 0.0, 0.0}, far);
+  const double z = -params.transducer_depth_m;
+  if (params.sea_surface) {
+    std::vector<Point<Sonar>> rim;
+    for (const double azimuth : azimuths) rim.push_back(on_surface(reach_sideways_m(sector), azimuth, z));
+    add_round(hull, {0.0, 0.0, z}, {rim});
+  }
+  if (params.ship) {
+    for (const SceneTriangle& triangle : ship_mesh(params.ship_length_m)) {
+      for (const Point<Sonar>& corner : triangle.corners) hull.add({corner.x, corner.y, corner.z + z});
+    }
+  }
+  return std::move(hull).outline();
 }
 
 std::optional<std::pair<double, double>> depth_span(const SeabedPatch& bed) {

@@ -46,6 +46,11 @@ struct DepthAxis {
 [[nodiscard]] std::vector<Point<Sonar>> fan_outline(const Sector& sector, int fan);
 [[nodiscard]] std::vector<Point<Sonar>> beam_outline(const Sector& sector, int beam);
 
+/// What the sector's cells cover of a picture, with the sea surface and the ship where these are shown: the convex hull of
+/// what lies before the eye, which may reach far beyond the picture; empty where nothing does.
+[[nodiscard]] ConvexOutline sector_outline(const Sector& sector, const ContextParams& params,
+                                           const CameraBasis& camera);
+
 /// A muted plane where the seabed was seen, with a grid and an edge.
 void add_fitted_seabed(ContextScene& scene, const FittedSeabed& bed, const Theme& theme);
 

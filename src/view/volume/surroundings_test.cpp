@@ -295,6 +295,33 @@ TEST(SeabedUnder, IsInterpolatedBetweenNodes) {
   EXPECT_TRUE(std::isnan(depth_under(bed, -9.0, -9.0)));
 }
 
+// Law: whatever of a sector is seen, from outside it or from within, is seen in its outline, which is convex.
+TEST(SectorOutline, HoldsWhatIsSeenOfTheSector) {
+  for (const auto& [name, sector] : slice_example::sectors()) {
+    RandomCameras cameras(sector);
+    int seen = 0;
+    for (int view = 0; view < 40; ++view) {
+      Camera camera = cameras.next();
+      if (view % 4 == 0) camera = zoomed(camera, 0.1);  // many of these stand within the sector
+      const CameraBasis eye = basis(camera, kSize);
+      const ConvexOutline outline = sector_outline(sector, nothing_else(), eye);
+      for (int place = 0; place < 300; ++place) {
+        const Voxel voxel{place % sector.fans(), (7 * place) % sector.beams(), 5 + place % 90};
+        const auto at = eye.project(sector.centre(voxel.fan, voxel.beam, voxel.sample));
+        if (!at || at->depth_m < 50.0 || !inside({0.0, 0.0, 640.0, 480.0}, at->pixel)) continue;
+        ++seen;
+        for (std::size_t i = 0; i < outline.size(); ++i) {
+          const PixelPoint a = outline[i];
+          const PixelPoint b = outline[(i + 1) % outline.size()];
+          const double turn = (b.x - a.x) * (at->pixel.y - a.y) - (b.y - a.y) * (at->pixel.x - a.x);
+          ASSERT_GT(turn, -2.0 * std::hypot(b.x - a.x, b.y - a.y)) << name << ' ' << view << ": two pixels outside";
+        }
+      }
+    }
+    EXPECT_GT(seen, 1000) << name;
+  }
+}
+
 // What the bar says, projected: across the line of sight at the target.
 TEST(DistanceBar, IsAsLongAsTheSameDistanceAtTheTarget) {
   const Sector sector = slice_example::hand_sector();

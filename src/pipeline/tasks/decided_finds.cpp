@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// Schools that other runs found, as far as their masks are what was found.
+#include "pipeline/tasks/decided_finds.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <system_error>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "io/product_file.h"
+#include "pipeline/commands/command.h"
+#include "pipeline/journal/journals.h"
+#include "pipeline/stages/observe.h"
+#include "pipeline/tasks/merge.h"
+#include "pipeline/tasks/plan.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool same_pings(const ObservationProduct& product, const ObservationFiles& observation) {
+  const auto same_time = [](const PingNavigation& a, const PingNavigation& b) { return a.time == b.time; };
+  return product.source == source_of(observation) && product.grid && observation.grid &&
+         product.grid->grid == *observation.grid && product.grid->range == observation.range &&
+         std::ranges::equal(product.pings, observation.navigation, same_time);
+}
+
+/// Parameters that were not there yet have their defaults, whatever the text's hash is. Where a recipe looks for no schools by
+/// itself, that there are some shows that they were looked for.
+bool same_recipe(const ObservationProduct& product, Recipe recipe) {
+  auto made_under = recipe_from_text(product.recipe_json);
+  if (!made_under || (!made_under->automatic && product.schools.empty())) return false;
+  made_under->automatic = recipe.automatic = true;
+  return recipe_hash(*made_under) == recipe_hash(recipe);
+}
+
+Result<Plan> plan_of(const fs::path& folder) {
+  std::error_code absent;
+  const fs::path plan = folder / "plan.json";
+  return fs::is_regular_file(plan, absent) ? read_plan(plan) : Result<Plan>(fail(ErrorCode::not_found, ""));
+}
+
+/// Of the same pings on the same grid under the same recipe.
+std::optional<ObservationProduct> product_of(const fs::path& folder, const ObservationFiles& observation,
+                                             const Recipe& recipe) {
+  const fs::path file = product_path(folder, observation.name);
+  std::error_code absent;
+  if (!fs::exists(file, absent)) return std::nullopt;
+  auto product = read_product(file);
+  if (!product || !same_pings(*product, observation) || !same_recipe(*product, recipe)) return std::nullopt;
+  return std::move(*product);
+}
+
+OtherFind find_in(const fs::path& folder, ObservationProduct product) {
+  product.background_db = {};
+  const fs::path file = product_path(folder, product.observation);
+  return {file, std::make_shared<const ObservationProduct>(std::move(product))};
+}
+
+/// False also where nobody knows what a line asks for.
+bool leaves_masks(const ReadLine& read) {
+  if (read.line.command == "undo" || read.line.command == "redo") return true;
+  if (!read.act) return false;
+  const Command& command = read.act->command;
+  return std::holds_alternative<DetectCommand>(command) || std::holds_alternative<DecideCommand>(command) ||
+         std::holds_alternative<EventCommand>(command) || std::holds_alternative<RemoveEventCommand>(command) ||
+         std::holds_alternative<CalibrateCommand>(command);
+}
+
+/// When a journal's lines may have changed masks. Lines are only ever added to a journal: whatever a run was given of it,
+/// nothing else was among it. Empty where it cannot be read whole.
+std::optional<std::vector<TimeSpan>> mask_changes(const fs::path& session) {
+  const auto journal = read_session(session);
+  if (!journal || !journal->diagnostics.empty()) return std::nullopt;
+  std::vector<TimeSpan> spans;
+  const ReadJournal lines(journal->lines);
+  for (const ReadLine& read : lines.lines()) {
+    if (leaves_masks(read)) continue;
+    const std::vector<TimeSpan> of_line = times_of(read);
+    spans.insert(spans.end(), of_line.begin(), of_line.end());
+  }
+  return spans;
+}
+
+/// Whether spans meet the pings of an observation.
+bool meet(const std::vector<TimeSpan>& spans, const SurveyFiles& survey, const ObservationFiles& observation) {
+  const std::vector<TimeNs> times = datagram_times(survey, observation);
+  return std::ranges::any_of(spans, [&](const TimeSpan& span) {
+    return !times.empty() && span.first <= times.back() && span.last >= times.front();
+  });
+}
+
+/// Another journal may lie where the run's lay.
+bool shaped_by_hand(const SchoolRow& school) { return school.origin != "automatic" || school.status == "corrected"; }
+
+}  // namespace
+
+std::optional<OtherFind> find_of_another_version(std::span<const fs::path> work_folders,
+                                                 const ObservationFiles& observation, const Recipe& recipe,
+                                                 const std::string& version) {
+  for (const fs::path& folder : work_folders) {
+    const auto plan = plan_of(folder);
+    if (!plan || !plan->session.empty()) continue;
+    auto product = product_of(folder, observation, recipe);
+    if (!product || (product->program_version == version && product->stage_versions == kStageVersions)) continue;
+    return find_in(folder, std::move(*product));
+  }
+  return std::nullopt;
+}
+
+std::map<std::size_t, OtherFind> finds_of_decided_runs(std::span<const fs::path> work_folders,
+                                                       const SurveyFiles& survey, const Recipe& recipe,
+                                                       const std::set<std::size_t>& known) {
+  std::map<std::size_t, OtherFind> finds;
+  for (const fs::path& folder : work_folders) {
+    const auto plan = plan_of(folder);
+    const auto changed = plan && !plan->session.empty() ? mask_changes(plan->session) : std::nullopt;
+    for (std::size_t i = 0; changed && i < survey.observations.size(); ++i) {
+      const ObservationFiles& observation = survey.observations[i];
+      if (known.contains(i) || finds.contains(i) || meet(*changed, survey, observation)) continue;
+      auto product = product_of(folder, observation, recipe);
+      if (!product || std::ranges::any_of(product->schools, shaped_by_hand)) continue;
+      // What was lost of the decisions is told where they are carried out here.
+      std::erase_if(product->diagnostics, [](const Diagnostic& note) {
+        return note.code == DiagnosticCode::decision_lost || note.code == DiagnosticCode::decision_carried;
+      });
+      finds.emplace(i, find_in(folder, std::move(*product)));
+    }
+  }
+  return finds;
+}
+
+}  // namespace sonar

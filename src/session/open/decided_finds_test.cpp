@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// Results of a run that was given decisions, which changed no mask, are shown without detecting again.
+#include "pipeline/tasks/decided_finds.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipeline/journal/journals.h"
+#include "pipeline/stages/detected_cache.h"
+#include "session/test_app.h"
+#include "session/test_run.h"
+
+namespace sonar {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+
+class DecidedFinds : public testing::Test, protected TestApp {
+ protected:
+  void SetUp() override {
+    const fs::path found = TestSurvey::easy().fresh();
+    const auto plan = run_easy(found);
+    ASSERT_TRUE(plan) << to_line(plan.error());
+    for (const PlanTask& task : plan->tasks) {
+      const auto product = kept_detected(product_path(found, task.observation), task.key);
+      ASSERT_TRUE(product);
+      found_.push_back(*product);
+    }
+    ASSERT_EQ(found_.size(), 2U);
+  }
+  /// A voxel of an observation's first school, in the ping where it is first.
+  [[nodiscard]] SchoolKey voxel(std::size_t observation) const {
+    const ObservationProduct& product = found_[observation];
+    const SchoolMask& mask = product.masks.front();
+    const sonar::Run& run = mask.mask.runs.front();
+    const int channel = product.grid->grid.channel[static_cast<std::size_t>(run.row)];
+    return {product.pings[static_cast<std::size_t>(mask.ping_index)].time, channel, run.first_sample};
+  }
+  /// A line of the journal that the run is given.
+  std::int64_t say(std::size_t observation, Command command) {
+    const JournalAct act{++lines_, lines_ * kSecondNs, "ann", voxel(observation).ping_time, std::move(command)};
+    EXPECT_TRUE(append_journal(session_.string(), {}, line_of(act)));
+    return act.n;
+  }
+  std::int64_t say_species(std::size_t observation) {
+    Decision decision;
+    decision.school = voxel(observation);
+    decision.species = "herring";
+    return say(observation, DecideCommand{{decision}, {}});
+  }
+  std::int64_t paint_in(std::size_t observation) {
+    BrushCommand command;
+    command.runs.push_back({voxel(observation).channel, voxel(observation).sample, 6});
+    return say(observation, command);
+  }
+  void take_back(std::int64_t line) {
+    JournalLine undo;
+    undo.n = ++lines_;
+    undo.decided = lines_ * kSecondNs;
+    undo.operator_name = "ann";
+    undo.command = "undo";
+    undo.ping_time = voxel(0).ping_time;
+    undo.args = JsonValue(nlohmann::json{{"target", line}});
+    ASSERT_TRUE(append_journal(session_.string(), {}, undo));
+  }
+  /// Of version "test", as `sonarx run --session` makes them.
+  void run() {
+    const std::vector<fs::path> paths{raw_};
+    const auto journal = read_session(session_);
+    ASSERT_TRUE(journal);
+    const ReadJournal lines(effective_lines(journal->lines));
+    Work work;
+    const Recipe recipe;
+    const auto survey = open_survey(paths, recipe.survey, recipe.navigation, {}, work);
+    ASSERT_TRUE(survey);
+    const Plan plan = make_plan(*survey, paths, session_, recipe, {{}, lines, "test"});
+    RunOptions options;
+    options.out = out_;
+    options.program_version = "test";
+    ASSERT_TRUE(run_plan(plan, *survey, lines, options, work));
+    std::ofstream(out_ / "plan.json") << plan_text(plan);
+    for (std::size_t i = 0; i < 2; ++i) {
+      auto product = kept_detected(product_path(out_, plan.tasks[i].observation), plan.tasks[i].key);
+      ASSERT_TRUE(product);
+      made_.push_back(std::move(*product));
+    }
+  }
+  void open(const fs::path& path, const std::string& version) {
+    DocumentOptions options = TestSurvey::options(journal_);
+    options.program_version = version;
+    options.cache = cache_;
+    app_ = std::make_unique<AppModel>(queue_, options);
+    document().open({path});
+    document().settle();
+  }
+  [[nodiscard]] std::string species(std::size_t observation) {
+    const auto& schools = document().state(observation).schools;
+    return schools.empty() ? "no school" : schools.front()->masks.decided.species;
+  }
+
+  const fs::path& raw_ = TestSurvey::easy().folder();
+  fs::path out_ = TestSurvey::easy().fresh();
+  fs::path session_ = TestSurvey::easy().fresh() / "chosen.jsonl";
+  IndexCache cache_;
+  std::vector<ObservationProduct> found_;  ///< without decisions
+  std::vector<ObservationProduct> made_;   ///< with them
+  std::int64_t lines_ = 0;
+};
+
+TEST_F(DecidedFinds, AreShownWithTheirDecisionsAndFiguresWhereTheseChangedNoMask) {
+  cache_.folder = TestSurvey::easy().fresh();
+  say_species(0);
+  paint_in(1);
+  run();
+  ASSERT_EQ(made_[0].schools.front().species, "herring");
+  open(out_, "another");
+  ASSERT_TRUE(document().as_made(0));
+  EXPECT_TRUE(document().detected(0));
+  EXPECT_EQ(document().state(0).schools.size(), found_[0].schools.size());
+  EXPECT_EQ(species(0), "herring");
+  EXPECT_EQ(document().state(0).schools.front()->masks.decided.operator_name, "ann");
+  ASSERT_TRUE(document().product(0));
+  EXPECT_EQ(document().product(0)->program_version, "test");
+  EXPECT_EQ(document().product(0)->input_hash, "") << "it is no find of this version";
+  EXPECT_EQ(document().product(0)->school_pings.size(), made_[0].school_pings.size());
+  EXPECT_EQ(document().product(0)->schools.front().backscatter_m2, made_[0].schools.front().backscatter_m2);
+  EXPECT_THAT(document().notices(), Contains(AllOf(HasSubstr("the schools of 1 observation are shown as version test"),
+                                                   HasSubstr("Ctrl+D"))));
+  EXPECT_EQ(document().as_made(1), nullptr) << "what was painted would be painted twice";
+  open(raw_, "another");
+  EXPECT_EQ(document().as_made(0), nullptr);
+  ASSERT_TRUE(document().product(0));
+  EXPECT_EQ(document().product(0)->program_version, "another") << "it was kept under no key of this version";
+  EXPECT_EQ(species(0), "herring") << "the decision holds on what is found now";
+}
+
+TEST_F(DecidedFinds, OfThisVersionTooAreNotDetectedAgain) {
+  say_species(0);
+  run();
+  open(out_, "test");
+  EXPECT_TRUE(document().as_made(0) && document().as_made(1));
+  EXPECT_EQ(species(0), "herring");
+}
+
+// The journal may have had the line when the run was given it.
+TEST_F(DecidedFinds, ALineThatWasTakenBackMayHaveChangedMasks) {
+  take_back(paint_in(0));
+  run();
+  open(out_, "another");
+  EXPECT_EQ(document().as_made(0), nullptr);
+  EXPECT_TRUE(document().as_made(1));
+}
+
+// Another journal lies where the run's lay: what the product says of its schools counts.
+TEST_F(DecidedFinds, SchoolsThatWereShapedByHandAreNotShownAsFound) {
+  paint_in(0);
+  run();
+  fs::remove(session_);
+  say_species(0);
+  open(out_, "another");
+  EXPECT_EQ(document().as_made(0), nullptr);
+  EXPECT_TRUE(document().as_made(1));
+  fs::remove(session_);
+  open(out_, "another");
+  EXPECT_EQ(document().as_made(1), nullptr) << "nobody knows what was decided";
+}
+
+// No school, of a run that looked for none, is no find.
+TEST_F(DecidedFinds, WhereNobodyLookedForSchoolsNothingIsShown) {
+  Recipe recipe;
+  recipe.automatic = false;
+  ASSERT_TRUE(run_easy(out_, recipe));
+  open(out_, "another");
+  EXPECT_EQ(document().as_made(0), nullptr);
+  EXPECT_FALSE(document().detected(0));
+}
+
+}  // namespace
+}  // namespace sonar
