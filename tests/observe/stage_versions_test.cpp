@@ -44,7 +44,7 @@ constexpr std::array<Recorded, 11> kRecorded{{
     {"detect", 16, "377014ec67318b80c167d6dd11887fbb"},
     {"track", 11, "91393a19123f317dd64eee83037c0240"},
     {"propagate", 5, "07fc13208a4339c9753bc8d5d859fd72"},
-    {"measure", 21, "90682cad4440b1a91f7e7be4084a0acd"},
+    {"measure", 22, "90682cad4440b1a91f7e7be4084a0acd"},
     {"summarise", 9, "cd15b6d83dc74d4f606e166cb537c967"},
 }};
 
