@@ -153,7 +153,6 @@ struct Moments {
   Covariance3 sideways{};
   double range2 = 0.0;  ///< sum of weight x range^2
   LevelMoments level;
-  std::array<double, 5> by_depth{};
 };
 
 /// One fan's echo, summed with the volume of a steradian's shells.
@@ -202,8 +201,6 @@ void add_row(Moments& m, FanSum& sum, const MeasureInput& ping, const Run& run, 
   const Vector3 sideways{-std::sin(a), std::cos(a), 0.0};
   m.weight += w0;
   m.level.add(a, of_range);
-  double down = 1.0;
-  for (std::size_t k = 0; k < 5; ++k, down *= along[2]) m.by_depth[k] += down * of_range[k];
   for (std::size_t k = 0; k < 3; ++k) m.first[k] += w1 * along[k];
   add_square(m.second, along, w2);
   const auto r = static_cast<std::size_t>(run.row);
@@ -257,7 +254,6 @@ BodyEcho body_echo(const MeasureInput& ping, const PingMask& mask, const Measure
   out.two_way_area = ping.two_way_area;
   out.known = true;
   out.level = m.level;
-  out.by_depth = m.by_depth;
   const double spacing_m = ping.sector->range().spacing_m;
   out.looks = static_cast<double>(mask.voxels()) * spacing_m / std::max(spacing_m, ping.pulse_m);
   const std::vector<FanEcho> fans = profile(sums, *ping.sector, params.min_fan_share);

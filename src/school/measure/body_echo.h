@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "geo/frames.h"
@@ -25,8 +24,7 @@ struct BodyEcho {
   Point<Sonar> centre;        ///< m
   double mean_range2_m2 = 0;  ///< echo-weighted mean of range squared
   LevelMoments level;
-  std::array<double, 5> by_depth{};  ///< sums of weight x z^k, k = 0 .. 4
-  double looks = 0.0;                ///< independent ones: members, over the samples of a pulse
+  double looks = 0.0;  ///< independent ones: members, over the samples of a pulse
   /// [shape of the beam] as beam_shapes(params, two_way_area); empty ones = too few fans to tell
   std::vector<HeightLikelihood> heights;
 };

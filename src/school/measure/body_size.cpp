@@ -35,7 +35,7 @@ void correct_selection(Covariance3& total, const Covariance3& blur, const Point<
 
 /// level_blur  of pulse and beam, without what the beam adds upright
 AxisSighting axis_sighting(const BodyEcho& echo, const Covariance3& level_blur, double axis_rad) {
-  const Cumulants whole = echo.level.along(axis_rad, echo.centre);
+  const LevelMoments::Cumulants whole = echo.level.along(axis_rad, echo.centre);
   const double x = std::cos(axis_rad);
   const double y = std::sin(axis_rad);
   const double blur = level_blur[0] * x * x + 2.0 * level_blur[1] * x * y + level_blur[3] * y * y;
@@ -67,8 +67,6 @@ std::optional<BodySighting> body_sighting(const BodyEcho& echo, const HeightLike
   out.length = along(axes.major_bearing_rad);
   out.width = along(axes.major_bearing_rad + std::numbers::pi / 2.0);
   out.line_of_sight = along(std::atan2(echo.centre.y, echo.centre.x));
-  const Cumulants by_depth = cumulants(echo.by_depth);
-  out.height = {body[5], by_depth.variance, by_depth.fourth, echo.looks};
   if (height && height->evidence >= params.min_height_evidence) out.height_variance = body[5];
   out.blur_variance = (blur[0] + blur[3]) / 2.0;
   return out;

@@ -21,8 +21,7 @@ struct BodySighting {
   double length_axis_rad = 0.0;  ///< of the length, from the bow towards starboard
   AxisSighting length;           ///< how its density changes
   AxisSighting width;
-  AxisSighting height;
-  AxisSighting line_of_sight;  ///< where the sonar sees most sharply: the height is expected to be like it
+  AxisSighting line_of_sight;  ///< along it, where the sonar sees most sharply: so it is taken to change upright
 };
 
 /// The echo's second and fourth moments less those of beam and pulse.

@@ -73,26 +73,20 @@ class BodyThroughPings {
   }
   [[nodiscard]] BodySize size(std::size_t ping) const {
     if (!sightings_[ping]) return {};
-    const double in_sight = kurtosis(ping, &BodySighting::line_of_sight, kEvenKurtosis);
-    const BodyShape shape = {half_axis(kurtosis(ping, &BodySighting::length, kEvenKurtosis)),
-                             half_axis(kurtosis(ping, &BodySighting::width, kEvenKurtosis)),
-                             half_axis(kurtosis(ping, &BodySighting::height, in_sight))};
+    const BodyShape shape = {density(ping, &BodySighting::length), density(ping, &BodySighting::width),
+                             density(ping, &BodySighting::line_of_sight)};
     return body_size(*sightings_[ping], shape, pings_[ping]->body.centre, params_);
   }
 
  private:
-  /// Its square over the variance.
-  [[nodiscard]] double half_axis(double kurtosis) const {
-    return params_.shape_variance * shape_variance(kurtosis) / shape_variance(kEvenKurtosis);
-  }
-  [[nodiscard]] double kurtosis(std::size_t ping, AxisSighting BodySighting::*axis, double expected) const {
+  [[nodiscard]] double density(std::size_t ping, AxisSighting BodySighting::*axis) const {
     std::vector<AxisSighting> near;
     for (std::size_t k = 0; k < pings_.size(); ++k) {
       const SchoolPingRow& row = pings_[k]->row;
       if (std::abs(row.ping_index - pings_[ping]->row.ping_index) > params_.height_pool_pings) continue;
       if (sightings_[k] && (row.edge_flags & (kCutsLevel | kCutsHeight)) == 0) near.push_back((*sightings_[k]).*axis);
     }
-    return density_kurtosis(near, expected, params_);
+    return shape_variance(near, params_);
   }
 
   const SchoolThroughPings& pings_;

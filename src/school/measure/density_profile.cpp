@@ -9,6 +9,9 @@
 namespace sonar {
 namespace {
 
+constexpr double kEvenKurtosis = 15.0 / 7.0;
+constexpr double kEvenFourth = kEvenKurtosis - 3.0;  ///< fourth cumulant, in variances squared
+constexpr double kEvenShape = 5.0;
 constexpr double kLeastKurtosis = 1.0;  ///< of anything: that of two lumps
 constexpr double kMostKurtosis = 2.45;  ///< of a core 10 dB denser than the margin, falling off as exp(-c r^2)
 
@@ -25,16 +28,7 @@ void LevelMoments::add(double azimuth_rad, std::span<const double, 5> of_range) 
   }
 }
 
-Cumulants cumulants(std::array<double, 5> sums) {
-  if (!(sums[0] > 0.0)) return {};
-  for (std::size_t k = 1; k < 5; ++k) sums[k] /= sums[0];
-  const double square = sums[1] * sums[1];
-  const double variance = sums[2] - square;
-  const double fourth = sums[4] - 4.0 * sums[1] * sums[3] + 6.0 * square * sums[2] - 3.0 * square * square;
-  return {variance, fourth - 3.0 * variance * variance};
-}
-
-Cumulants LevelMoments::along(double axis_rad, const Point<Sonar>& centre) const {
+LevelMoments::Cumulants LevelMoments::along(double axis_rad, const Point<Sonar>& centre) const {
   const double level = std::hypot(centre.x, centre.y) / norm(centre);
   const double x = level * std::cos(axis_rad);
   const double y = level * std::sin(axis_rad);
@@ -45,7 +39,12 @@ Cumulants LevelMoments::along(double axis_rad, const Point<Sonar>& centre) const
                 sums[k - j][j];
     }
   }
-  return cumulants(raw);
+  if (!(raw[0] > 0.0)) return {};
+  for (std::size_t k = 1; k < 5; ++k) raw[k] /= raw[0];
+  const double square = raw[1] * raw[1];
+  const double variance = raw[2] - square;
+  const double fourth = raw[4] - 4.0 * raw[1] * raw[3] + 6.0 * square * raw[2] - 3.0 * square * square;
+  return {variance, fourth - 3.0 * variance * variance};
 }
 
 double shape_variance(double kurtosis) {
@@ -53,7 +52,8 @@ double shape_variance(double kurtosis) {
   return k * k * (1.0 + 7.0 / 90.0 * (k - 1.0));
 }
 
-double density_kurtosis(std::span<const AxisSighting> sightings, double expected, const MeasureParams& params) {
+double shape_variance(std::span<const AxisSighting> sightings, const MeasureParams& params) {
+  if (!params.find_density) return params.shape_variance;
   double looks = 0.0;
   double fourth = 0.0;
   double of_bodies = 0.0;
@@ -62,14 +62,15 @@ double density_kurtosis(std::span<const AxisSighting> sightings, double expected
     if (!std::isfinite(sighting.variance) || !std::isfinite(sighting.fourth_cumulant)) continue;
     const double body = std::max(sighting.variance, 0.0);
     looks += sighting.looks;
-    fourth += sighting.looks * (sighting.fourth_cumulant - (expected - 3.0) * body * body);
+    fourth += sighting.looks * (sighting.fourth_cumulant - kEvenFourth * body * body);
     of_bodies += sighting.looks * body * body;
     of_echoes += sighting.looks * sighting.echo_variance * sighting.echo_variance;
   }
-  if (!params.find_density || !(of_echoes > 0.0)) return expected;
+  if (!(of_echoes > 0.0)) return params.shape_variance;
   const double off = fourth / of_echoes * looks / (looks + params.density_looks);
   const double doubt = std::max(0.0, 1.0 - std::sqrt(of_bodies / of_echoes));
-  return std::clamp(expected + std::copysign(std::max(std::abs(off) - doubt, 0.0), off), kLeastKurtosis, kMostKurtosis);
+  const double told = std::copysign(std::max(std::abs(off) - doubt, 0.0), off);
+  return params.shape_variance * shape_variance(kEvenKurtosis + told) / kEvenShape;
 }
 
 }  // namespace sonar

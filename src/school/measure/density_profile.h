@@ -9,16 +9,14 @@
 
 namespace sonar {
 
-struct Cumulants {
-  double variance = 0.0;  ///< m^2
-  double fourth = 0.0;    ///< fourth cumulant, m^4
-};
-/// sums  of weight x place^k, k = 0 .. 4; m^k
-[[nodiscard]] Cumulants cumulants(std::array<double, 5> sums);
-
 /// Moments of an echo over slant range and azimuth, to the fourth: they tell along any level axis how its density changes
 /// from core to margin. All fans lie in one plane, so that what the beam blurs upright has no part in them.
 struct LevelMoments {
+  struct Cumulants {
+    double variance = 0.0;  ///< m^2
+    double fourth = 0.0;    ///< fourth cumulant, m^4
+  };
+
   /// Echo of one beam. of_range  sums of weight x range^k, k = 0 .. 4
   void add(double azimuth_rad, std::span<const double, 5> of_range);
   /// Along a level axis.
@@ -42,13 +40,9 @@ struct AxisSighting {
 ///         (9/5, 3), hoops and shells, within 3 % of cores up to 10 dB denser than the margin. Denser ones count as that.
 [[nodiscard]] double shape_variance(double kurtosis);
 
-constexpr double kEvenKurtosis = 15.0 / 7.0;  ///< of an even ellipsoid
-
-/// Kurtosis of a body's density along an axis, from several sightings of one school. What few looks tell is drawn to what is
-/// expected, and so is a body that is small beside the blur: the skirts of a beam, which nobody knows, may look like a dense
+/// The same from several sightings of one school, times params.shape_variance / 5. What few looks tell is drawn to an even
+/// density, and so is a body that is small beside the blur: the skirts of a beam, which nobody knows, may look like a dense
 /// core or a hollow, by as much as the blur is of the echo.
-/// expected  before anything is seen along this axis
-[[nodiscard]] double density_kurtosis(std::span<const AxisSighting> sightings, double expected,
-                                      const MeasureParams& params);
+[[nodiscard]] double shape_variance(std::span<const AxisSighting> sightings, const MeasureParams& params);
 
 }  // namespace sonar
