@@ -44,6 +44,14 @@ Result<Plan> plan_of(const fs::path& folder) {
   return fs::is_regular_file(plan, absent) ? read_plan(plan) : Result<Plan>(fail(ErrorCode::not_found, ""));
 }
 
+/// Whether schools were looked for in every ping, by the recipe that the product tells: `--pings` looks in some, and
+/// `--remeasure` keeps the masks of a run before, which its key shows.
+bool whole_find(const ObservationProduct& product) {
+  return product.input_hash.find('-') == std::string::npos &&
+         std::ranges::none_of(product.diagnostics,
+                              [](const Diagnostic& note) { return note.code == DiagnosticCode::pings_left_out; });
+}
+
 /// Of the same pings on the same grid under the same recipe.
 std::optional<ObservationProduct> product_of(const fs::path& folder, const ObservationFiles& observation,
                                              const Recipe& recipe) {
@@ -51,34 +59,34 @@ std::optional<ObservationProduct> product_of(const fs::path& folder, const Obser
   std::error_code absent;
   if (!fs::exists(file, absent)) return std::nullopt;
   auto product = read_product(file);
-  if (!product || !same_pings(*product, observation) || !same_recipe(*product, recipe)) return std::nullopt;
+  if (!product || !whole_find(*product) || !same_pings(*product, observation) || !same_recipe(*product, recipe)) {
+    return std::nullopt;
+  }
   return std::move(*product);
 }
 
-OtherFind find_in(const fs::path& folder, ObservationProduct product) {
+OtherFind find_in(const fs::path& folder, const ObservationFiles& observation, ObservationProduct product) {
   product.background_db = {};
-  const fs::path file = product_path(folder, product.observation);
-  return {file, std::make_shared<const ObservationProduct>(std::move(product))};
+  return {product_path(folder, observation.name), std::make_shared<const ObservationProduct>(std::move(product))};
 }
 
-/// False also where nobody knows what a line asks for.
+/// Under another calibration, masks stay, but the product tells it as its recipe's.
 bool leaves_masks(const ReadLine& read) {
   if (read.line.command == "undo" || read.line.command == "redo") return true;
-  if (!read.act) return false;
   const Command& command = read.act->command;
   return std::holds_alternative<DetectCommand>(command) || std::holds_alternative<DecideCommand>(command) ||
-         std::holds_alternative<EventCommand>(command) || std::holds_alternative<RemoveEventCommand>(command) ||
-         std::holds_alternative<CalibrateCommand>(command);
+         std::holds_alternative<EventCommand>(command) || std::holds_alternative<RemoveEventCommand>(command);
 }
 
 /// When a journal's lines may have changed masks. Lines are only ever added to a journal: whatever a run was given of it,
-/// nothing else was among it. Empty where it cannot be read whole.
+/// nothing else was among it. Empty where it cannot be read whole, or nobody knows what a line asks for.
 std::optional<std::vector<TimeSpan>> mask_changes(const fs::path& session) {
   const auto journal = read_session(session);
   if (!journal || !journal->diagnostics.empty()) return std::nullopt;
   std::vector<TimeSpan> spans;
   const ReadJournal lines(journal->lines);
   for (const ReadLine& read : lines.lines()) {
+    if (!read.act && read.line.command != "undo" && read.line.command != "redo") return std::nullopt;
     if (leaves_masks(read)) continue;
     const std::vector<TimeSpan> of_line = times_of(read);
     spans.insert(spans.end(), of_line.begin(), of_line.end());
@@ -107,7 +115,7 @@ std::optional<OtherFind> find_of_another_version(std::span<const fs::path> work_
     if (!plan || !plan->session.empty()) continue;
     auto product = product_of(folder, observation, recipe);
     if (!product || (product->program_version == version && product->stage_versions == kStageVersions)) continue;
-    return find_in(folder, std::move(*product));
+    return find_in(folder, observation, std::move(*product));
   }
   return std::nullopt;
 }
@@ -124,11 +132,14 @@ std::map<std::size_t, OtherFind> finds_of_decided_runs(std::span<const fs::path>
       if (known.contains(i) || finds.contains(i) || meet(*changed, survey, observation)) continue;
       auto product = product_of(folder, observation, recipe);
       if (!product || std::ranges::any_of(product->schools, shaped_by_hand)) continue;
+      // Figures then hang on which of the ping's schools are rejected: another word on one would leave the others' as they were.
+      const auto rejected = [](const SchoolRow& school) { return school.status == "rejected"; };
+      if (recipe.measure.extinction.correct && std::ranges::any_of(product->schools, rejected)) continue;
       // What was lost of the decisions is told where they are carried out here.
       std::erase_if(product->diagnostics, [](const Diagnostic& note) {
         return note.code == DiagnosticCode::decision_lost || note.code == DiagnosticCode::decision_carried;
       });
-      finds.emplace(i, find_in(folder, std::move(*product)));
+      finds.emplace(i, find_in(folder, observation, std::move(*product)));
     }
   }
   return finds;

@@ -192,6 +192,7 @@ TEST(VolumeFigure, LegendAndScaleBarKeepOffTheSectorInTwoHundredViews) {
   const auto even = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   constexpr std::array<PixelSize, 4> kSizes{{{400, 300}, {600, 400}, {720, 560}, {1280, 800}}};
   int rooms = 0;
+  int bars = 0;
   for (int view = 0; view < 200; ++view) {
     PictureOptions options;
     options.size = view % 50 == 49 ? PixelSize{3840, 2160} : kSizes[static_cast<std::size_t>(view) % kSizes.size()];
@@ -236,9 +237,11 @@ TEST(VolumeFigure, LegendAndScaleBarKeepOffTheSectorInTwoHundredViews) {
     if (a_corner_has_room(picture, bar.width + spare, bar.height + spare, sector, legend)) {
       EXPECT_FALSE(on_sector(bar)) << view;
     }
+    if (bar.width > 0.0) ++bars;
     EXPECT_FALSE(overlap(legend, bar)) << view;
   }
   EXPECT_GT(rooms, 20);
+  EXPECT_GT(bars, 150);
 }
 
 // Law: from 200 pixels on, under all palettes and in both themes, no words reach over the border, and what has no room is

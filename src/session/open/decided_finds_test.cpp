@@ -7,6 +7,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -73,7 +74,7 @@ class DecidedFinds : public testing::Test, protected TestApp {
     ASSERT_TRUE(append_journal(session_.string(), {}, undo));
   }
   /// Of version "test", as `sonarx run --session` makes them.
-  void run() {
+  void run(std::optional<PingSelection> pings = {}) {
     const std::vector<fs::path> paths{raw_};
     const auto journal = read_session(session_);
     ASSERT_TRUE(journal);
@@ -86,9 +87,10 @@ class DecidedFinds : public testing::Test, protected TestApp {
     RunOptions options;
     options.out = out_;
     options.program_version = "test";
+    options.pings = pings;
     ASSERT_TRUE(run_plan(plan, *survey, lines, options, work));
     std::ofstream(out_ / "plan.json") << plan_text(plan);
-    for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < 2 && !pings; ++i) {
       auto product = kept_detected(product_path(out_, plan.tasks[i].observation), plan.tasks[i].key);
       ASSERT_TRUE(product);
       made_.push_back(std::move(*product));
@@ -147,8 +149,18 @@ TEST_F(DecidedFinds, OfThisVersionTooAreNotDetectedAgain) {
   say_species(0);
   run();
   open(out_, "test");
-  EXPECT_TRUE(document().as_made(0) && document().as_made(1));
+  EXPECT_TRUE(document().as_made(0));
+  EXPECT_TRUE(document().detected(1)) << "nothing was said of it: its key is that of a run without decisions";
   EXPECT_EQ(species(0), "herring");
+  EXPECT_THAT(document().notices(), Contains(HasSubstr("as a run with decisions left them")));
+}
+
+TEST_F(DecidedFinds, WhatWasLookedForInSomePingsIsNotAllThatIsThere) {
+  say_species(0);
+  run(PingSelection{0, 1});
+  open(out_, "another");
+  EXPECT_EQ(document().as_made(0), nullptr);
+  EXPECT_EQ(document().as_made(1), nullptr);
 }
 
 // The journal may have had the line when the run was given it.

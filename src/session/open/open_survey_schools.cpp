@@ -70,9 +70,13 @@ void OpenSurvey::tell_as_made(const std::vector<std::size_t>& observations) {
     versions.insert(made->program_version);
   }
   if (count == 0) return;
-  tell(fmt::format(
-      "{}: the schools of {} are shown as version {} made them; [schools.detect_all] detects them by this version",
-      read_.work_folders.front().string(), count_of(count, "observation"), fmt::join(versions, ", ")));
+  const std::string shown = fmt::format("{}: the schools of {} are shown as ", read_.work_folders.front().string(),
+                                        count_of(count, "observation"));
+  if (versions == std::set{document_.options().program_version}) {
+    return tell(shown + "a run with decisions left them; [schools.detect_all] detects them anew");
+  }
+  tell(fmt::format("{}version {} made them; [schools.detect_all] detects them by this version", shown,
+                   fmt::join(versions, ", ")));
 }
 
 void OpenSurvey::detect_one(const std::shared_ptr<const SurveyFiles>& survey, std::size_t index, bool as_made,

@@ -13,9 +13,9 @@ namespace {
 /// A beam that looks along the surface has all its samples at one depth: bins are no finer than this.
 constexpr double kLeastBin_m = 0.01;
 
-/// Pieces of a bent beam: an arc of 150 m radius, as in a thermocline of 10 m/s each metre, is off its chord by 5 cm then
-/// where pieces are 8 m long.
-constexpr int kPieces = 64;
+/// Pieces of a bent beam: an arc of 150 m radius, as in a thermocline of 10 m/s each metre, is off its chord by 5 cm
+/// where pieces are 8 m long, of a beam of 2 km.
+constexpr int kPieces = 256;
 
 }  // namespace
 

@@ -47,7 +47,7 @@ PlanBox shown_of(const Sector& sector, std::span<const PropagationPanel> panels,
   if (!style.whole_sector && style.focus >= 0) fit_to(style.focus);
   if (!style.whole_sector && box.empty()) fit_to(-1);
   if (box.empty()) {
-    for (const PlanePoint& p : sector_outline(sector, style.aspect)) box.add(p.x, p.y);
+    for (const PlanePoint& p : plan_outline(sector, style.aspect)) box.add(p.x, p.y);
   }
   if (box.empty()) box.add(0.0, 0.0);
   const double size = std::max(box.right - box.left, box.high - box.low);
@@ -100,7 +100,7 @@ PlanBox box_of(const MaskPlan& plan, MaskAspect aspect) {
   return box;
 }
 
-std::vector<PlanePoint> sector_outline(const Sector& sector, MaskAspect aspect) {
+std::vector<PlanePoint> plan_outline(const Sector& sector, MaskAspect aspect) {
   constexpr int kSteps = 48;
   std::vector<PlanePoint> out;
   if (sector.fans() < 1 || sector.beams() < 1 || sector.range().count < 1) return out;

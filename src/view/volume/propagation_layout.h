@@ -32,7 +32,7 @@ struct PlanBox {
 /// What a plan lights.
 [[nodiscard]] PlanBox box_of(const MaskPlan& plan, MaskAspect aspect);
 /// Of the sector, in picture directions, m from the transducer.
-[[nodiscard]] std::vector<PlanePoint> sector_outline(const Sector& sector, MaskAspect aspect);
+[[nodiscard]] std::vector<PlanePoint> plan_outline(const Sector& sector, MaskAspect aspect);
 
 /// What stands round the panels.
 struct PanelWords {

@@ -103,7 +103,7 @@ void add_panel(FrameDescription& frame, const Sector& sector, const PropagationP
   }
   frame.items.emplace_back(ClipItem{place});
   std::vector<PixelPoint> outline;
-  for (const PlanePoint& p : sector_outline(sector, style.aspect)) outline.push_back(layout.at(p, place));
+  for (const PlanePoint& p : plan_outline(sector, style.aspect)) outline.push_back(layout.at(p, place));
   if (!outline.empty()) {
     frame.items.emplace_back(polyline_item(std::move(outline), true, theme.outline, theme.line_px,
                                            panel.bad ? Rgba8{0, 0, 0, 0} : theme.water));

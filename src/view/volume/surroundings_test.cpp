@@ -310,6 +310,7 @@ TEST(SectorOutline, HoldsWhatIsSeenOfTheSector) {
         const auto at = eye.project(sector.centre(voxel.fan, voxel.beam, voxel.sample));
         if (!at || at->depth_m < 50.0 || !inside({0.0, 0.0, 640.0, 480.0}, at->pixel)) continue;
         ++seen;
+        ASSERT_GE(outline.size(), 3U) << name << ' ' << view;
         for (std::size_t i = 0; i < outline.size(); ++i) {
           const PixelPoint a = outline[i];
           const PixelPoint b = outline[(i + 1) % outline.size()];
