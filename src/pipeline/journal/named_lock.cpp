@@ -87,21 +87,22 @@ bool lives(const Holder& holder) { return ::kill(static_cast<pid_t>(holder.proce
 /// A lock that is there already.
 struct Found {
   enum class State { gone, unnamed, held, left } state = State::gone;
-  std::string words{};
+  std::string words = "another window";
 };
 
 /// An open lock file; whoever looks at it in earnest takes it along, when it was left behind.
 Found look_at(const fs::path& path, int file, bool take_away) {
   const int locked = ::flock(file, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
   const std::optional<Holder> holder = holder_in(file);
-  if (!holder) return {locked == EWOULDBLOCK ? Found::State::held : Found::State::unnamed, "another window"};
+  if (!holder) return {locked == EWOULDBLOCK ? Found::State::held : Found::State::unnamed};
   if (locked == EWOULDBLOCK) return {Found::State::held, words(*holder)};
   if (holder->host != host_name() || holder->machine != machine_id()) {
     return {Found::State::held, fmt::format("{}; if that program is gone, remove {}", words(*holder), path.string())};
   }
   // A disk without locks does not tell by them.
   if (locked != 0 && lives(*holder)) return {Found::State::held, words(*holder)};
-  const bool stays = take_away && still_there(path, file) && ::unlink(path.c_str()) != 0;
+  if (!still_there(path, file)) return {Found::State::gone};  // let go of while it was opened here
+  const bool stays = take_away && ::unlink(path.c_str()) != 0;
   if (!stays) return {Found::State::left, words(*holder)};
   return {Found::State::held, fmt::format("{}, which has ended; remove {}", words(*holder), path.string())};
 }
@@ -142,6 +143,7 @@ Result<NamedLock::Taken> NamedLock::take(const fs::path& file, const std::string
   make_folder(file.parent_path());
   Taken taken;
   Found found;
+  bool names_nobody = true;
   for (int attempt = 0; attempt < kTries; ++attempt) {
     const int made = ::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
     if (made >= 0) {
@@ -156,13 +158,14 @@ Result<NamedLock::Taken> NamedLock::take(const fs::path& file, const std::string
     }
     if (errno != EEXIST) return refused_write("could not be written", errno, file.string());
     found = look_at(file, true);
+    names_nobody = names_nobody && found.state == Found::State::unnamed;
     if (found.state == Found::State::left) {
       taken.notice = fmt::format("the lock of {} was left by a program that has ended", found.words);
     } else if (found.state != Found::State::gone) {
       ::usleep(10'000);  // somebody may be about to take it, or only looking
     }
   }
-  if (found.state == Found::State::held) return Taken{std::move(found.words), {}};
+  if (!names_nobody) return Taken{std::move(found.words), {}};
   return fail(ErrorCode::io, "is a lock that names nobody; remove it if no other program is at work here",
               {file.string()});
 }

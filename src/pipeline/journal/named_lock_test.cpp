@@ -31,7 +31,7 @@ TEST(NamedLock, TellsWhoHoldsIt) {
   EXPECT_EQ(second.take(file, "bent", test::kStart)->held_by, "");
 }
 
-// Whoever looks at a lock that is just being made must not take it for one that was left behind.
+// Whoever looks at a lock that is just being made, or just let go of, must not take it for one that was left behind.
 TEST(NamedLock, NoTwoThreadsHoldItAtOnce) {
   const test::TemporaryFolder folder;
   const auto file = folder.path() / "locks" / "a.lock";
@@ -39,10 +39,12 @@ TEST(NamedLock, NoTwoThreadsHoldItAtOnce) {
   std::atomic<int> most = 0;
   std::atomic<int> times = 0;
   Work work(8);
-  work.for_each(400, [&](std::int64_t) {
+  work.for_each(2000, [&](std::int64_t) {
     NamedLock lock;
     const auto taken = lock.take(file, "somebody", 0);
-    if (!taken || !lock.held()) return;
+    if (!taken) return;
+    EXPECT_EQ(lock.held(), taken->held_by.empty());
+    if (!lock.held()) return;
     EXPECT_EQ(taken->notice, "") << "it is nobody's that has ended";
     const int now = ++holders;
     if (now > most) most = now;
