@@ -24,19 +24,17 @@ std::filesystem::path detected_file(const IndexCache& cache, const SurveyFiles& 
 std::optional<ObservationProduct> kept_detected(const std::filesystem::path& file, const std::string& key) {
   std::error_code absent;
   if (file.empty() || !std::filesystem::exists(file, absent)) return std::nullopt;
-  const auto known = read_product_key(file);
-  if (!known || known->input_hash != key) return std::nullopt;
   auto product = read_product(file);
-  if (!product) return std::nullopt;
+  if (!product || product->input_hash != key) return std::nullopt;
   return std::move(*product);
 }
 
 std::shared_ptr<const EarlierSchools> earlier_found(const std::filesystem::path& file, const SurveyFiles& survey,
-                                                    const ObservationFiles& observation) {
+                                                    const ObservationFiles& observation, bool stays) {
   if (file.empty()) return nullptr;
   const std::filesystem::path beside = std::filesystem::path(file).replace_extension();
   std::error_code absent;
-  if (std::filesystem::exists(file, absent)) {
+  if (!stays && std::filesystem::exists(file, absent)) {
     const auto key = read_product_key(file);
     if (key && key->stage_versions != kStageVersions) (void)hold(beside, file, *key);
   }

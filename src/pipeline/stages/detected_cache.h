@@ -24,9 +24,10 @@ namespace sonar {
                                                               const std::string& key);
 /// What other versions found in these pings, for choices that name schools by voxels of theirs; null = nothing. A find of
 /// theirs that lies in `file` is held on to first, in a folder beside it, for it will be written over.
+/// stays  the file is this version's and need not be looked into
 [[nodiscard]] std::shared_ptr<const EarlierSchools> earlier_found(const std::filesystem::path& file,
                                                                   const SurveyFiles& survey,
-                                                                  const ObservationFiles& observation);
+                                                                  const ObservationFiles& observation, bool stays);
 /// Holds on to a product of another version for earlier_found(), before anybody chooses upon it.
 /// file  detected_file()
 void hold_earlier(const std::filesystem::path& file, const std::filesystem::path& product);

@@ -52,11 +52,19 @@ class DecidedFinds : public testing::Test, protected TestApp {
     EXPECT_TRUE(append_journal(session_.string(), {}, line_of(act)));
     return act.n;
   }
+  std::int64_t decide(std::size_t observation, Decision decision) {
+    decision.school = voxel(observation);
+    return say(observation, DecideCommand{{decision}, {}});
+  }
   std::int64_t say_species(std::size_t observation) {
     Decision decision;
-    decision.school = voxel(observation);
     decision.species = "herring";
-    return say(observation, DecideCommand{{decision}, {}});
+    return decide(observation, decision);
+  }
+  std::int64_t reject(std::size_t observation) {
+    Decision decision;
+    decision.status = "rejected";
+    return decide(observation, decision);
   }
   std::int64_t paint_in(std::size_t observation) {
     BrushCommand command;
@@ -74,23 +82,23 @@ class DecidedFinds : public testing::Test, protected TestApp {
     ASSERT_TRUE(append_journal(session_.string(), {}, undo));
   }
   /// Of version "test", as `sonarx run --session` makes them.
-  void run(std::optional<PingSelection> pings = {}) {
+  void run(std::optional<PingSelection> pings = {}, bool remeasure = false) {
     const std::vector<fs::path> paths{raw_};
     const auto journal = read_session(session_);
     ASSERT_TRUE(journal);
     const ReadJournal lines(effective_lines(journal->lines));
     Work work;
-    const Recipe recipe;
-    const auto survey = open_survey(paths, recipe.survey, recipe.navigation, {}, work);
+    const auto survey = open_survey(paths, recipe_.survey, recipe_.navigation, {}, work);
     ASSERT_TRUE(survey);
-    const Plan plan = make_plan(*survey, paths, session_, recipe, {{}, lines, "test"});
+    const Plan plan = make_plan(*survey, paths, session_, recipe_, {{}, lines, "test"});
     RunOptions options;
     options.out = out_;
     options.program_version = "test";
     options.pings = pings;
+    options.remeasure = remeasure;
     ASSERT_TRUE(run_plan(plan, *survey, lines, options, work));
     std::ofstream(out_ / "plan.json") << plan_text(plan);
-    for (std::size_t i = 0; i < 2 && !pings; ++i) {
+    for (std::size_t i = 0; i < 2 && !pings && !remeasure; ++i) {
       auto product = kept_detected(product_path(out_, plan.tasks[i].observation), plan.tasks[i].key);
       ASSERT_TRUE(product);
       made_.push_back(std::move(*product));
@@ -113,6 +121,7 @@ class DecidedFinds : public testing::Test, protected TestApp {
   fs::path out_ = TestSurvey::easy().fresh();
   fs::path session_ = TestSurvey::easy().fresh() / "chosen.jsonl";
   IndexCache cache_;
+  Recipe recipe_;
   std::vector<ObservationProduct> found_;  ///< without decisions
   std::vector<ObservationProduct> made_;   ///< with them
   std::int64_t lines_ = 0;
@@ -161,6 +170,35 @@ TEST_F(DecidedFinds, WhatWasLookedForInSomePingsIsNotAllThatIsThere) {
   open(out_, "another");
   EXPECT_EQ(document().as_made(0), nullptr);
   EXPECT_EQ(document().as_made(1), nullptr);
+}
+
+TEST_F(DecidedFinds, MasksThatWereKeptMayBeOthersThanWhatIsFound) {
+  say_species(0);
+  run();
+  run({}, true);
+  open(out_, "another");
+  EXPECT_EQ(document().as_made(0), nullptr);
+  EXPECT_EQ(document().as_made(1), nullptr);
+}
+
+TEST_F(DecidedFinds, ARejectedSchoolStaysRejected) {
+  reject(0);
+  run();
+  ASSERT_EQ(made_[0].schools.front().status, "rejected");
+  open(out_, "another");
+  EXPECT_TRUE(document().as_made(0));
+  ASSERT_FALSE(document().state(0).schools.empty());
+  EXPECT_EQ(document().state(0).schools.front()->masks.decided.status, "rejected");
+}
+
+// With the extinction correction a rejected school casts no shadow: taken in again, it would change the figures of others.
+TEST_F(DecidedFinds, FiguresThatHangOnARejectedSchoolAreMeasuredAnew) {
+  recipe_.measure.extinction.correct = true;
+  reject(0);
+  run();
+  open(out_, "another");
+  EXPECT_EQ(document().as_made(0), nullptr);
+  EXPECT_TRUE(document().as_made(1)) << "in this one no school is rejected";
 }
 
 // The journal may have had the line when the run was given it.

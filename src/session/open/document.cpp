@@ -43,14 +43,19 @@ Journal head_of(const SurveyFiles& files, const Recipe& recipe) {
   return head;
 }
 
-/// Observations whose schools one of these folders has as detect() would find them.
+/// Observations whose schools one of these folders has as detect() would find them; some of them when cancelled.
 std::set<std::size_t> found_in(const std::vector<std::filesystem::path>& work_folders, const SurveyFiles& survey,
-                               const Recipe& recipe, const std::string& program_version) {
-  std::set<std::size_t> found;
-  for (std::size_t i = 0; i < survey.observations.size() && !work_folders.empty(); ++i) {
-    const ObservationFiles& observation = survey.observations[i];
+                               const Recipe& recipe, const std::string& program_version, Work& work) {
+  std::vector<char> has(survey.observations.size());
+  const auto look = [&](std::int64_t i) {
+    const ObservationFiles& observation = survey.observations[static_cast<std::size_t>(i)];
     const std::string key = key_of_find(survey, observation, recipe, program_version);
-    if (!product_in(work_folders, observation.name, key).empty()) found.insert(i);
+    has[static_cast<std::size_t>(i)] = product_in(work_folders, observation.name, key).empty() ? 0 : 1;
+  };
+  if (!work_folders.empty()) work.for_each(static_cast<std::int64_t>(has.size()), look);
+  std::set<std::size_t> found;
+  for (std::size_t i = 0; i < has.size(); ++i) {
+    if (has[i] != 0) found.insert(i);
   }
   return found;
 }
@@ -197,8 +202,10 @@ void Document::read(Opening what) {
     }
     if (place) place->notices.insert(place->notices.end(), survey->notices.begin(), survey->notices.end());
     if (!files->raw_gone.empty() && place) place->notices.push_back(files->raw_gone + " ([file.find_raw])");
-    const auto found = files->raw_gone.empty() ? found_in(named->work_folders, *files, recipe, options_.program_version)
-                                               : all_with_grid(*files);
+    const auto found = files->raw_gone.empty()
+                           ? found_in(named->work_folders, *files, recipe, options_.program_version, work)
+                           : all_with_grid(*files);
+    if (work.cancelled()) return end_with(Error{ErrorCode::cancelled, "stopped on request", {}}, token, opening);
     auto others = files->raw_gone.empty()
                       ? found_by_others(named->work_folders, *files, recipe, options_.program_version, found)
                       : std::map<std::size_t, OtherFind>{};

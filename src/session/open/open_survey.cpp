@@ -104,7 +104,9 @@ OpenSurvey::AtWork& OpenSurvey::opened(std::size_t index) {
 void OpenSurvey::replay_journal() {
   for (const std::size_t index : std::exchange(unreplayed_, {})) choices_thread_->open(open_.at(index).chosen_on);
   // Another survey that is being read would be given up for it.
-  if (!undetected_.empty() && !document_.opening()) detect(std::exchange(undetected_, {}), true);
+  if (undetected_.empty() || document_.opening()) return;
+  std::ranges::stable_partition(undetected_, [&](std::size_t index) { return shown_ && index == shown_->index(); });
+  detect(std::exchange(undetected_, {}), true);
 }
 
 void OpenSurvey::go_on() {

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -99,18 +100,22 @@ void OpenSurvey::detect_one(const std::shared_ptr<const SurveyFiles>& survey, st
   std::vector<std::filesystem::path> files;
   for (const IndexCache& in : kept_in()) files.push_back(detected_file(in, *survey, observation));
   const std::string key = key_of_find(*survey, observation, recipe, options.program_version);
+  // Read once, and first: this is what every opening but the first waits for.
+  std::optional<ObservationProduct> kept;
+  const auto of_now = std::ranges::find_if(files, [&](const auto& file) {
+    kept = kept_detected(file, key);
+    return kept.has_value();
+  });
   std::shared_ptr<const EarlierSchools> earlier;
-  for (const auto& file : files) {
-    if (!earlier) earlier = earlier_found(file, *survey, observation);
+  for (auto file = files.begin(); file != files.end() && !earlier; ++file) {
+    earlier = earlier_found(*file, *survey, observation, file == of_now);
   }
   const auto take = [&](const ObservationProduct& product) {
     post(token, [this, survey, index, step, found = found_in(product, detected_schools(product), earlier)] {
       if (survey == read_.files) take_detected(index, found, step);
     });
   };
-  for (const auto& file : files) {
-    if (const auto kept = kept_detected(file, key)) return take(*kept);
-  }
+  if (kept) return take(*kept);
   if (const auto of_run = kept_detected(product_in(read_.work_folders, observation.name, key), key)) {
     take(*of_run);
     return keep_detected(files.front(), *of_run);
