@@ -299,8 +299,8 @@ void set_uniforms(const Scene& scene, const VolumeData& volume, const VolumeView
 
 double naive_frame(const VolumeData& volume, const OpticalTable& table, const VolumeView& view, double step_m,
                    int frames, NaiveFrame& out) {
-  auto hull_program = make_program("naive hull", kHullVertex, kHullFragment);
-  auto rays_program = make_program("naive rays", kWholeVertex, kRayFragment);
+  auto hull_program = make_program("naive hull", {kHullVertex, kHullFragment});
+  auto rays_program = make_program("naive rays", {kWholeVertex, kRayFragment});
   if (!hull_program || !rays_program) {
     return std::numeric_limits<double>::quiet_NaN();
   }

@@ -117,8 +117,7 @@ benchmarks() {
     echo "ITK is not installed (tools/setup.sh bench): left out"
     return 0
   fi
-  build bench --target bench_median bench_stages sonar_bench_slices sonar_bench_latency sonar_bench_latency_volume \
-    sonar_bench_reopen
+  build bench --target bench_median
 }
 
 # Tests in which several threads work on the same things, and the programs that hold them.
