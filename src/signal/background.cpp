@@ -11,6 +11,7 @@
 #include "base/check.h"
 #include "base/middle.h"
 #include "base/units.h"
+#include "signal/column_quantiles.h"
 #include "signal/flag_kernels.h"
 #include "signal/noise_beside_water.h"
 #include "signal/row_kernels.h"
@@ -53,7 +54,8 @@ double share_at_rank(std::size_t rank, std::size_t data) {
 /// in  samples with kNoData where they are flagged; it lies below all data, so ranks are shifted by its number
 std::int16_t low_quantile_level(Row block, std::size_t data, double quantile) {
   const auto rank = std::min(data - 1, static_cast<std::size_t>(quantile * static_cast<double>(data)));
-  const std::int16_t value = select_rank(block, block.size() - data + rank);
+  const std::int16_t most = *std::ranges::max_element(block);
+  const std::int16_t value = select_rank(block, block.size() - data + rank, kNoData + 1, most);
   return count_from_linear(linear_from_count(value) / -std::log1p(-share_at_rank(rank, data)));
 }
 
@@ -63,11 +65,35 @@ std::int16_t mean_level(Row block, std::size_t data) {
   return sum > 0.0 ? count_from_linear(sum / static_cast<double>(data)) : kNoData;
 }
 
-std::int16_t median_level(std::span<std::int16_t> known) {
-  std::ranges::sort(known);
-  const std::int16_t high = known[known.size() / 2];
-  if (known.size() % 2 == 1) return high;
-  return count_from_linear(0.5 * (linear_from_count(high) + linear_from_count(known[known.size() / 2 - 1])));
+/// Means of the data in each column of a matrix, which has as many as the shape has values.
+Array3<std::int16_t> mean_over_rows(Row matrix, const Shape3& shape) {
+  Array3<std::int16_t> out(shape, kNoData);
+  const std::size_t columns = out.all().size();
+  std::vector<std::int16_t> known;
+  for (std::size_t i = 0; i < columns; ++i) {
+    known.clear();
+    for (std::size_t at = i; at < matrix.size(); at += columns) {
+      if (matrix[at] != kNoData) known.push_back(matrix[at]);
+    }
+    if (!known.empty()) out.all()[i] = mean_level(known, known.size());
+  }
+  return out;
+}
+
+/// The same for medians; of an even number the mean, linear, of the two in the middle.
+Array3<std::int16_t> median_over_rows(Row matrix, const Shape3& shape) {
+  constexpr std::array kMiddles = {0.5, 0.4999};  // of an odd number below 5000 the same rank
+  Array3<std::int16_t> out(shape);
+  const std::size_t columns = out.all().size();
+  std::vector<std::int16_t> known(columns);
+  std::vector<std::int16_t> middles(2 * columns);
+  column_quantiles(matrix, kMiddles, known, middles);
+  for (std::size_t i = 0; i < columns; ++i) {
+    const std::int16_t high = middles[i];
+    const std::int16_t low = middles[columns + i];
+    out.all()[i] = low == high ? high : count_from_linear(0.5 * (linear_from_count(high) + linear_from_count(low)));
+  }
+  return out;
 }
 
 /// Sv of each block that half of a fan's beams lie below, and their gain there; 0 where none is known.
@@ -121,6 +147,10 @@ double row_noise(Row levels, std::span<const double> gain, const FanLevels& fan,
   return power.empty() ? 0.0 : noise_beside_water(power, water, usual, spread);
 }
 
+std::int16_t distance(std::int16_t a, std::int16_t b) {
+  return static_cast<std::int16_t>(std::min<int>(std::abs(a - b), kMaxCount));
+}
+
 std::int16_t weakest_level(Row levels) {
   std::int16_t weakest = kNoData;
   for (const std::int16_t level : levels) {
@@ -162,19 +192,14 @@ Array3<std::int16_t> background_levels(View3<const std::int16_t> power, View3<co
 Array3<std::int16_t> levels_over_pings(std::span<const Array3<std::int16_t>* const> pings,
                                        const BackgroundParams& params) {
   SONAR_CHECK(!pings.empty());
-  Array3<std::int16_t> out(pings.front()->shape(), kNoData);
-  std::vector<std::int16_t> known;
-  for (std::size_t i = 0; i < out.all().size(); ++i) {
-    known.clear();
-    for (const auto* ping : pings) {
-      SONAR_CHECK(ping->shape() == out.shape());
-      if (ping->all()[i] != kNoData) known.push_back(ping->all()[i]);
-    }
-    if (known.empty()) continue;
-    out.all()[i] =
-        params.method == BackgroundMethod::de_robertis ? mean_level(known, known.size()) : median_level(known);
+  const Shape3 shape = pings.front()->shape();
+  std::vector<std::int16_t> matrix;
+  for (const auto* ping : pings) {
+    SONAR_CHECK(ping->shape() == shape);
+    matrix.insert(matrix.end(), ping->all().begin(), ping->all().end());
   }
-  return out;
+  return params.method == BackgroundMethod::de_robertis ? mean_over_rows(matrix, shape)
+                                                        : median_over_rows(matrix, shape);
 }
 
 void keep_quieter(View3<const std::int16_t> own, double quiet_db, View3<std::int16_t> levels) {
@@ -213,16 +238,21 @@ double level_spread(std::span<const Array3<std::int16_t>* const> pings, View3<co
     const double data = std::max(1.0, params.far_fraction * samples / kFarBlocks);
     return std::sqrt(p / (1.0 - p) / data) / -std::log1p(-p) / std::sqrt(count);
   }
-  std::vector<int> apart;
+  std::vector<std::int16_t> apart;
+  apart.reserve(pings.size() * levels.all().size());
+  std::size_t known = 0;
   for (const auto* ping : pings) {
     SONAR_CHECK(ping->shape() == levels.shape());
     for (std::size_t i = 0; i < levels.all().size(); ++i) {
-      if (ping->all()[i] != kNoData) apart.push_back(std::abs(ping->all()[i] - levels.all()[i]));
+      const bool told = ping->all()[i] != kNoData;
+      known += told ? 1U : 0U;
+      // what is not told lies behind all ranks that are
+      apart.push_back(told ? distance(ping->all()[i], levels.all()[i]) : kMaxCount);
     }
   }
-  if (apart.empty()) return 0.0;
+  if (known == 0) return 0.0;
   const double single =
-      kStandardOverMiddleDeviation * (linear_from_db(db_from_counts(middle_of(std::move(apart)))) - 1.0);
+      kStandardOverMiddleDeviation * (linear_from_db(db_from_counts(select_rank(apart, known / 2, 0))) - 1.0);
   return single * std::sqrt(std::numbers::pi / 2.0 / count);  // of a median
 }
 

@@ -2,7 +2,6 @@
 #include "signal/median.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <bit>
@@ -10,6 +9,7 @@
 
 #include "base/units.h"
 #include "signal/test_data.h"
+#include "signal/test_targets.h"
 
 namespace sonar {
 namespace {
@@ -126,14 +126,7 @@ TEST(median, every_instruction_set_gives_the_same_bits) {
   auto ping = filled({4, 21, 120}, Fill::random, 10);
   const auto flags = sprinkled(ping, 11);
   const auto expected = median_reference(ping.view(), flags.view(), {});
-  for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
-    const std::int64_t target = left & -left;
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    EXPECT_TRUE(by(MedianMethod::automatic, ping, flags, {}) == expected) << hwy::TargetName(target);
-    hwy::SetSupportedTargetsForTest(0);
-  }
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  test::on_each_target([&] { EXPECT_TRUE(by(MedianMethod::automatic, ping, flags, {}) == expected); });
 }
 
 TEST(median, any_number_of_threads_gives_the_same_bits) {

@@ -35,14 +35,8 @@ std::size_t CountBelow(const std::int16_t* values, std::size_t size, std::int16_
 #if HWY_TARGET != HWY_SCALAR
   const Counts d;
   const auto bound = hn::Set(d, limit);
-  // Lane-wise counters hold up to 32767 hits each; a row is shorter than that many vectors or is cut.
-  while (i + hn::Lanes(d) <= size) {
-    auto hits = hn::Zero(d);
-    const std::size_t stop = HWY_MIN(size, i + 16384 * hn::Lanes(d));
-    for (; i + hn::Lanes(d) <= stop; i += hn::Lanes(d)) {
-      hits = hn::Sub(hits, hn::VecFromMask(d, hn::Lt(hn::LoadU(d, values + i), bound)));
-    }
-    below += static_cast<std::size_t>(sum_of_lanes(d, hits));
+  for (; i + hn::Lanes(d) <= size; i += hn::Lanes(d)) {
+    below += hn::CountTrue(d, hn::Lt(hn::LoadU(d, values + i), bound));
   }
 #endif
   for (; i < size; ++i) below += values[i] < limit ? 1 : 0;
@@ -50,6 +44,16 @@ std::size_t CountBelow(const std::int16_t* values, std::size_t size, std::int16_
 }
 
 std::int16_t SelectRank(const std::int16_t* values, std::size_t size, std::size_t rank, int least, int most) {
+  // Few values are copied to where whole vectors of them are followed by the largest value, which lies below nothing.
+  constexpr std::size_t kFew = 512;
+  HWY_ALIGN std::int16_t few[kFew];
+  if (size < kFew) {
+    const std::size_t end = HWY_MIN(kFew, (size + hn::Lanes(Counts()) - 1) / hn::Lanes(Counts()) * hn::Lanes(Counts()));
+    for (std::size_t i = 0; i < size; ++i) few[i] = values[i];
+    for (std::size_t i = size; i < end; ++i) few[i] = 32767;
+    values = few;
+    size = end;
+  }
   // The largest v with fewer than rank + 1 values below it, by halving.
   while (least < most) {
     const int middle = most - (most - least) / 2;

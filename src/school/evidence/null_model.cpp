@@ -2,7 +2,6 @@
 #include "school/evidence/null_model.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -14,6 +13,7 @@
 #include "school/evidence/place_statistics.h"
 #include "school/evidence/places.h"
 #include "school/evidence/seabed_stretch.h"
+#include "signal/excess_kernels.h"
 
 namespace sonar {
 namespace {
@@ -27,34 +27,29 @@ constexpr double kRise_db = 3.0;  ///< of the seabed out of the water before it
 using Levels = Array3<std::int16_t>;  // [fan][beam][block]
 using Marks = Array3<std::uint8_t>;
 
-/// Of a sum of so many whitened values, what it has in their spreads.
-const std::array<float, 10> kPerRoot = [] {
-  std::array<float, 10> per_root{};
-  for (std::size_t n = 1; n < per_root.size(); ++n) per_root[n] = 1.0F / std::sqrt(static_cast<float>(n));
-  return per_root;
-}();
+/// Sum of a row and those `apart` before and after it, as far as there are any, always in the same order.
+void add_three(View3<const float> values, int row, int apart, bool before, bool after, std::span<float> out) {
+  const auto here = values.row(row);
+  const auto first = before ? values.row(row - apart) : here;
+  const auto last = after ? values.row(row + apart) : here;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const float sum = before ? first[i] + here[i] : here[i];
+    out[i] = after ? sum + last[i] : sum;
+  }
+}
 
-/// Sums over each beam and those beside it in its own fan and in the next ones, always in the same order.
+/// Sums over each beam and those beside it in its own fan and in the next ones.
 Array3<float> of_three_by_three(const Array3<float>& values) {
   const Shape3 shape = values.shape();
   Array3<float> of_beams(shape);
   Array3<float> of_fans(shape);
-  const auto add = [](std::span<const float> from, std::span<float> to) {
-    for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
-  };
-  for (int fan = 0; fan < shape.fans; ++fan) {
-    for (int beam = 0; beam < shape.beams; ++beam) {
-      for (int b = std::max(0, beam - 1); b <= std::min(shape.beams - 1, beam + 1); ++b) {
-        add(values.row(fan, b), of_beams.row(fan, beam));
-      }
-    }
+  for (int row = 0; row < static_cast<int>(shape.rows()); ++row) {
+    const int beam = row % shape.beams;
+    add_three(values.view(), row, 1, beam > 0, beam + 1 < shape.beams, of_beams.view().row(row));
   }
-  for (int fan = 0; fan < shape.fans; ++fan) {
-    for (int beam = 0; beam < shape.beams; ++beam) {
-      for (int f = std::max(0, fan - 1); f <= std::min(shape.fans - 1, fan + 1); ++f) {
-        add(of_beams.row(f, beam), of_fans.row(fan, beam));
-      }
-    }
+  for (int row = 0; row < static_cast<int>(shape.rows()); ++row) {
+    const int fan = row / shape.beams;
+    add_three(std::as_const(of_beams).view(), row, shape.beams, fan > 0, fan + 1 < shape.fans, of_fans.view().row(row));
   }
   return of_fans;
 }
@@ -97,15 +92,25 @@ class Window {
     return static_cast<std::size_t>(fan) * static_cast<std::size_t>(places_.count()) + static_cast<std::size_t>(place);
   }
 
-  /// Calls act(i, cell) for each block of a ping, i of its arrays.
-  template <class Act>
-  void for_each_block(std::size_t p, const Act& act) const {
-    std::size_t i = 0;
-    for (int row = 0; row < static_cast<int>(shape_.rows()); ++row) {
-      const std::size_t first = cell(row / shape_.beams, 0);
-      places_.for_each(p, row, shape_.samples,
-                       [&](int /*block*/, int place) { act(i++, first + static_cast<std::size_t>(place)); });
-    }
+  [[nodiscard]] int rows() const { return static_cast<int>(shape_.rows()); }
+  [[nodiscard]] std::span<const std::int16_t> excess(std::size_t p) const { return excess_[p].all(); }
+
+  /// What is told of a fan's places, at the blocks of one of its beams.
+  /// of_places  [fan][place]
+  template <class Value>
+  void lay_out_row(const std::vector<Value>& of_places, std::size_t p, int row, std::span<Value> out) const {
+    const auto of_fan = std::span(of_places).subspan(cell(row / shape_.beams, 0));
+    places_.for_each(p, row, shape_.samples, [&](int block, int place) {
+      out[static_cast<std::size_t>(block)] = of_fan[static_cast<std::size_t>(place)];
+    });
+  }
+
+  /// The same at all blocks of a ping.
+  template <class Value>
+  [[nodiscard]] Array3<Value> laid_out(const std::vector<Value>& of_places, std::size_t p) const {
+    Array3<Value> out(shape_);
+    for (int row = 0; row < rows(); ++row) lay_out_row(of_places, p, row, out.view().row(row));
+    return out;
   }
 
   void find_level() {
@@ -130,47 +135,38 @@ class Window {
     }
   }
 
-  /// The water in the middle of each block of a beam, between the places on either side.
-  /// of_fan  [place] kMinCount = not known
-  void water_of_row(std::span<const std::int16_t> of_fan, float by, std::span<int> out) const {
-    if (by == 1.0F) {  // the usual case: blocks are places
-      std::copy_n(of_fan.begin(), out.size(), out.begin());
-      return;
+  /// The water in the middle of each block of a ping, between the places on either side.
+  /// told  [fan][place] kMinCount = not known
+  [[nodiscard]] Levels water_of(const std::vector<std::int16_t>& told, std::size_t p) const {
+    Levels out(shape_);
+    const int last = places_.count() - 1;
+    for (int row = 0; row < rows(); ++row) {
+      const auto at_blocks = out.view().row(row);
+      const float by = places_.stretch(p, row);
+      if (by == 1.0F) {  // blocks are places
+        lay_out_row(told, p, row, at_blocks);
+        continue;
+      }
+      const std::int16_t* of_fan = told.data() + cell(row / shape_.beams, 0);
+      for (std::size_t block = 0; block < at_blocks.size(); ++block) {
+        const float at = std::clamp((static_cast<float>(block) + 0.5F) * by - 0.5F, 0.0F, static_cast<float>(last));
+        const int place = static_cast<int>(at);
+        const int from = of_fan[place];
+        const int to = of_fan[std::min(place + 1, last)];
+        const int between = from + static_cast<int>((at - static_cast<float>(place)) * static_cast<float>(to - from));
+        at_blocks[block] = static_cast<std::int16_t>(std::min(from, to) > kMinCount ? between : std::max(from, to));
+      }
     }
-    const auto last = static_cast<float>(of_fan.size() - 1);
-    for (std::size_t block = 0; block < out.size(); ++block) {
-      const float at = std::clamp((static_cast<float>(block) + 0.5F) * by - 0.5F, 0.0F, last);
-      const auto place = static_cast<std::size_t>(at);
-      const int from = of_fan[place];
-      const int to = of_fan[std::min(place + 1, of_fan.size() - 1)];
-      const int between = from + static_cast<int>((at - static_cast<float>(place)) * static_cast<float>(to - from));
-      out[block] = std::min(from, to) > kMinCount ? between : std::max(from, to);
-    }
+    return out;
   }
 
   void find_excess() {
+    std::vector<std::int16_t> told;
+    for (const PlaceStatistics& water : water_) told.push_back(water.middle == kNoData ? kMinCount : water.middle);
     excess_.clear();
-    std::vector<std::int16_t> told(water_.size());
-    std::ranges::transform(water_, told.begin(), [](const PlaceStatistics& water) {
-      return water.middle == kNoData ? std::int16_t{kMinCount} : water.middle;
-    });
-    std::vector<int> below(static_cast<std::size_t>(shape_.samples));
     for (std::size_t p = 0; p < pings_.size(); ++p) {
-      Levels excess(shape_, kNoData);
-      for (int row = 0; row < static_cast<int>(shape_.rows()); ++row) {
-        const auto of_fan =
-            std::span(told).subspan(cell(row / shape_.beams, 0), static_cast<std::size_t>(places_.count()));
-        water_of_row(of_fan, places_.stretch(p, row), below);
-        const auto level = std::as_const(levels_[p]).view().row(row);
-        const auto noise = std::as_const(noise_levels_[p]).view().row(row);
-        const auto out = excess.view().row(row);
-        for (std::size_t i = 0; i < out.size(); ++i) {
-          const int water = std::max(below[i], int{noise[i]});
-          if (level[i] == kNoData || water <= kMinCount) continue;
-          out[i] = static_cast<std::int16_t>(std::clamp(level[i] - water, -30000, 30000));
-        }
-      }
-      excess_.push_back(std::move(excess));
+      const Levels water = water_of(told, p);
+      excess_over(levels_[p].all(), water.all(), noise_levels_[p].all(), excess_.emplace_back(shape_).all());
     }
     level_patches();
     spread_ = statistics_of_places(excess_, masked_, places_, Trend::none);
@@ -178,23 +174,17 @@ class Window {
 
   /// Takes out of each ping's excess what is wider than schools.
   void level_patches() {
+    std::vector<std::int16_t> clips;
+    for (const PlaceStatistics& water : water_) {
+      const double clip = kClip * std::max<double>(water.below, counts_from_db(kLeastSpread_db));
+      clips.push_back(static_cast<std::int16_t>(std::min<double>(clip, kMaxCount)));
+    }
+    Levels heard(shape_);
     patches_.clear();
     for (std::size_t p = 0; p < pings_.size(); ++p) {
-      Levels heard(shape_, kNoData);
-      for_each_block(p, [&](std::size_t i, std::size_t cell) {
-        const std::int16_t excess = excess_[p].all()[i];
-        if (excess != kNoData && masked_[p].all()[i] == 0) {
-          const int clip =
-              static_cast<int>(kClip * std::max<double>(water_[cell].below, counts_from_db(kLeastSpread_db)));
-          heard.all()[i] = static_cast<std::int16_t>(std::clamp<int>(excess, -clip, clip));
-        }
-      });
+      clip_excess(excess(p), laid_out(clips, p).all(), masked_[p].all(), heard.all());
       patches_.push_back(local_patches(std::as_const(heard).view()));
-      auto patch = patches_.back().begin();
-      for (std::int16_t& excess : excess_[p].all()) {
-        const int by = kPatchStep * *patch++;
-        if (excess != kNoData) excess = static_cast<std::int16_t>(excess - by);
-      }
+      take_off_steps(patches_.back(), kPatchStep, excess_[p].all());
     }
   }
 
@@ -205,7 +195,20 @@ class Window {
   }
 
   /// Sum of the whitened excess over 3 x 3 beams, over the root of their number, in 1/256.
-  [[nodiscard]] Levels averaged(std::size_t p) const {
+  /// middle, scale  [fan][place] of what the excess is whitened by; a scale of 0 = not known
+  [[nodiscard]] Levels averaged(std::size_t p, const std::vector<float>& middle,
+                                const std::vector<float>& scale) const {
+    Array3<float> whitened(shape_);
+    Array3<float> number(shape_);
+    whiten(excess(p), laid_out(middle, p).all(), laid_out(scale, p).all(), whitened.all(), number.all());
+    const Array3<float> sum = of_three_by_three(whitened);
+    const Array3<float> of = of_three_by_three(number);
+    Levels out(shape_);
+    over_root(excess(p), sum.all(), of.all(), out.all());
+    return out;
+  }
+
+  void find_evidence() {
     std::vector<float> middle(cells(), 0.0F);
     std::vector<float> scale(cells(), 0.0F);
     for (std::size_t i = 0; i < cells(); ++i) {
@@ -213,29 +216,8 @@ class Window {
       middle[i] = std::max<float>(0.0F, spread_[i].middle);
       scale[i] = static_cast<float>(256.0 / width(spread_[i], counts_from_db(kLeastSpread_db)));
     }
-    const auto own = excess_[p].all();
-    Array3<float> sum(shape_);
-    Array3<float> number(shape_);
-    for_each_block(p, [&](std::size_t i, std::size_t cell) {
-      const float by = own[i] == kNoData ? 0.0F : scale[cell];
-      sum.all()[i] = (static_cast<float>(own[i]) - middle[cell]) * by;
-      number.all()[i] = by == 0.0F ? 0.0F : 1.0F;
-    });
-    sum = of_three_by_three(sum);
-    number = of_three_by_three(number);
-    Levels out(shape_, kNoData);
-    const auto of = number.all();
-    for (std::size_t i = 0; i < own.size(); ++i) {
-      if (own[i] == kNoData || of[i] == 0.0F) continue;
-      const float mean = std::as_const(sum).all()[i] * kPerRoot[static_cast<std::size_t>(of[i])];
-      out.all()[i] = static_cast<std::int16_t>(std::clamp(mean, -32000.0F, 32000.0F));
-    }
-    return out;
-  }
-
-  void find_evidence() {
     evidence_.clear();
-    for (std::size_t p = 0; p < pings_.size(); ++p) evidence_.push_back(averaged(p));
+    for (std::size_t p = 0; p < pings_.size(); ++p) evidence_.push_back(averaged(p, middle, scale));
     own_ = statistics_of_places(evidence_, masked_, places_, Trend::none);
   }
 
@@ -247,14 +229,20 @@ class Window {
       if (own_[i].middle == kNoData) continue;
       needed[i] = static_cast<int>(std::max<int>(0, own_[i].middle) + least * width(own_[i], 128.0));
     }
-    const auto values = evidence_[p].all();
-    for_each_block(p, [&](std::size_t i, std::size_t cell) {
-      if (values[i] < needed[cell]) return;  // kNoData is
-      const PlaceStatistics& own = own_[cell];
+    const Array3<int> needed_at = laid_out(needed, p);
+    const std::span<const std::int16_t> values = evidence_[p].all();
+    const auto blocks = static_cast<std::size_t>(shape_.samples);
+    std::vector<PlaceStatistics> own_at(blocks);
+    int laid_out_row = -1;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (values[i] < needed_at.all()[i]) continue;  // kNoData is
+      const int row = static_cast<int>(i / blocks);
+      if (row != laid_out_row) lay_out_row(own_, p, row, std::span(own_at));
+      laid_out_row = row;
+      const PlaceStatistics& own = own_at[i % blocks];
       const double evidence = (values[i] - std::max<int>(0, own.middle)) / width(own, 128.0);
-      const auto blocks = static_cast<std::size_t>(shape_.samples);
-      if (evidence >= least) act(static_cast<int>(i / blocks), static_cast<int>(i % blocks), evidence);
-    });
+      if (evidence >= least) act(row, static_cast<int>(i % blocks), evidence);
+    }
   }
 
   /// Once masked, always masked: a school that keeps its place would else have a say again as soon as it has none.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -18,21 +19,21 @@ class Places {
   /// blocks   [fan][beam][block] of each ping
   Places(std::vector<std::vector<float>> stretch, const Shape3& blocks) : stretch_(std::move(stretch)) {
     float most = 1.0F;
-    float least = 1.0F;
     for (const std::vector<float>& of_rows : stretch_) {
-      for (const float by : of_rows) {
-        most = std::max(most, by);
-        least = std::min(least, by);
-      }
+      for (const float by : of_rows) most = std::max(most, by);
     }
     count_ = static_cast<int>(std::ceil(most * static_cast<float>(blocks.samples)));
-    most_blocks_ = static_cast<int>(std::ceil(1.0F / least)) + 1;
+    for (const std::vector<float>& of_rows : stretch_) {
+      std::vector<std::int32_t>& places = of_blocks_.emplace_back();
+      places.reserve(of_rows.size() * static_cast<std::size_t>(blocks.samples));
+      for (const float by : of_rows) {
+        for (int block = 0; block < blocks.samples; ++block) places.push_back(at(block, by));
+      }
+    }
   }
 
   /// Of each fan.
   [[nodiscard]] int count() const { return count_; }
-  /// Of one beam that have the same place, at most.
-  [[nodiscard]] int most_blocks() const { return most_blocks_; }
   [[nodiscard]] const std::vector<float>& stretch(std::size_t ping) const { return stretch_[ping]; }
   [[nodiscard]] float stretch(std::size_t ping, int row) const {
     return stretch_[ping].empty() ? 1.0F : stretch_[ping][static_cast<std::size_t>(row)];
@@ -40,11 +41,11 @@ class Places {
   /// Calls act(block, place) for each of so many blocks of a beam.
   template <class Act>
   void for_each(std::size_t ping, int row, int blocks, const Act& act) const {
-    const float by = stretch(ping, row);
-    if (by == 1.0F) {  // the usual case, and many times as fast
+    if (stretch(ping, row) == 1.0F) {
       for (int block = 0; block < blocks; ++block) act(block, block);
     } else {
-      for (int block = 0; block < blocks; ++block) act(block, at(block, by));
+      const std::int32_t* places = of_blocks_[ping].data() + static_cast<std::ptrdiff_t>(row) * blocks;
+      for (int block = 0; block < blocks; ++block) act(block, places[block]);
     }
   }
 
@@ -55,8 +56,8 @@ class Places {
   }
 
   std::vector<std::vector<float>> stretch_;
+  std::vector<std::vector<std::int32_t>> of_blocks_;  ///< [ping][row][block] its place
   int count_ = 0;
-  int most_blocks_ = 1;
 };
 
 }  // namespace sonar
