@@ -65,7 +65,7 @@ Engine::Engine(const SurveyFiles& survey, const ObservationFiles& observation, c
       reckoned_(dead_reckoning(observation.navigation)),
       known_(known),
       levels_(observation.pings.size()),
-      given_(observation.pings.size()) {
+      background_db_(observation.pings.size()) {
   for (std::size_t i = 0; i < reckoned_.pings.size(); ++i) {
     const Placement recorded = placement(static_cast<std::int64_t>(i));
     reckoned_.pings[i].roll_rad = recorded.roll_rad;
@@ -109,6 +109,11 @@ Result<void> Engine::refusal() const {
 }
 
 namespace {
+
+/// A ping and so many on either side, as far as there are any; both inclusive.
+std::pair<std::int64_t, std::int64_t> round_of(std::int64_t ping_index, std::int64_t side, std::int64_t pings) {
+  return {std::max<std::int64_t>(0, ping_index - side), std::min(pings - 1, ping_index + side)};
+}
 
 /// [fan][beam] above the horizon of beams that the hull turns; empty where it does not.
 std::vector<double> level_elevation_deg(const Sector& sector, const Placement& placement) {
@@ -167,12 +172,14 @@ Result<void> Engine::estimate_background(std::int64_t first, std::int64_t last, 
   if (block_gain_.all().empty()) {
     block_gain_ = block_gain(std::as_const(*tables_.of_first_ping()).view(), recipe_.background);
   }
-  const std::int64_t from = std::max<std::int64_t>(0, first - recipe_.background_window.pings_each_side);
-  const std::int64_t to = std::min(pings() - 1, last + recipe_.background_window.pings_each_side);
+  last = std::min(last, pings() - 1);
+  const std::int64_t side = recipe_.background_window.pings_each_side;
+  const std::int64_t from = round_of(first, side, pings()).first;
+  const std::int64_t to = round_of(last, side, pings()).second;
   std::atomic<std::int64_t> done{0};
   work.for_each(to - from + 1, [&](std::int64_t i) {
     auto& levels = levels_[static_cast<std::size_t>(from + i)];
-    auto& given = given_[static_cast<std::size_t>(from + i)];
+    auto& given = background_db_[static_cast<std::size_t>(from + i)];
     if (levels.all().empty() && given.empty() && !is_bad(from + i)) {
       KnownPings::Background background = background_of(from + i);
       levels = std::move(background.levels);
@@ -181,20 +188,37 @@ Result<void> Engine::estimate_background(std::int64_t first, std::int64_t last, 
     work.progress("background", ++done, to - from + 1);
   });
   if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
+  const auto is_known = [&](std::int64_t i) {
+    return is_bad(i) || !levels_[static_cast<std::size_t>(i)].all().empty();
+  };
+  // Worked out once for all who ask; not where a neighbour could not be read, which may be readable the next time.
+  work.for_each(last - first + 1, [&](std::int64_t i) {
+    auto& of_ping = background_db_[static_cast<std::size_t>(first + i)];
+    if (!of_ping.empty()) return;
+    bool all_known = true;
+    const auto [begin, end] = round_of(first + i, side, pings());
+    for (std::int64_t near = begin; near <= end; ++near) all_known &= is_known(near);
+    if (!all_known) return;
+    if (auto told = background_told_round(first + i); !told.empty()) of_ping = std::move(told);
+  });
+  if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
   return {};
 }
 
 void Engine::give_background(std::int64_t ping_index, std::vector<float> background_db) {
-  given_[static_cast<std::size_t>(ping_index)] = std::move(background_db);
+  background_db_[static_cast<std::size_t>(ping_index)] = std::move(background_db);
 }
 
 std::vector<float> Engine::background_db(std::int64_t ping_index) const {
   if (!recipe_.background_window.enabled) return {};
-  if (const auto& given = given_[static_cast<std::size_t>(ping_index)]; !given.empty()) return given;
-  const std::int64_t side = recipe_.background_window.pings_each_side;
+  const auto& known = background_db_[static_cast<std::size_t>(ping_index)];
+  return known.empty() ? background_told_round(ping_index) : known;
+}
+
+std::vector<float> Engine::background_told_round(std::int64_t ping_index) const {
+  const auto [from, to] = round_of(ping_index, recipe_.background_window.pings_each_side, pings());
   std::vector<const Array3<std::int16_t>*> window;
-  for (std::int64_t i = std::max<std::int64_t>(0, ping_index - side); i <= std::min(pings() - 1, ping_index + side);
-       ++i) {
+  for (std::int64_t i = from; i <= to; ++i) {
     const auto& of_ping = levels_[static_cast<std::size_t>(i)];
     if (!of_ping.all().empty()) window.push_back(&of_ping);
   }

@@ -114,6 +114,8 @@ class Engine {
   [[nodiscard]] Result<Power> power(std::int64_t ping_index);
   [[nodiscard]] Array3<std::int16_t> levels_of(const PowerVolume& power) const;
   [[nodiscard]] KnownPings::Background background_of(std::int64_t ping_index);
+  /// By the levels of the ping and its neighbours, as far as they are known.
+  [[nodiscard]] std::vector<float> background_told_round(std::int64_t ping_index) const;
   [[nodiscard]] PingGeometry ping_geometry(std::int64_t ping_index) const;
   [[nodiscard]] Volume calibrated(std::int64_t ping_index, const PowerVolume& power, const Array3<std::int16_t>& table);
   void flag(std::int64_t ping_index, const PowerVolume& power, Volume& volume);
@@ -131,8 +133,8 @@ class Engine {
   std::optional<PingKeys> keys_;
   Array3<double> block_gain_;                 ///< by the observation's first settings
   std::vector<Array3<std::int16_t>> levels_;  ///< [ping] background_levels(), empty = not known
-  std::vector<std::vector<float>>
-      given_;  ///< [ping] background that a reduced file or a product brings along; else empty
+  /// [ping] as it was worked out, or as a reduced file or a product brings it along; empty = not known
+  std::vector<std::vector<float>> background_db_;
   mutable std::mutex mutex_;
   Result<void> refusal_;
   std::size_t power_limit_;

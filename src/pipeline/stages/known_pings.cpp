@@ -35,7 +35,8 @@ void add_attitude(Key& key, const PingNavigation& at) {
 }
 
 /// What all pings of an observation have in common: may change as pings are added, and then nothing is known any more.
-Hash128 of_all(const ObservationFiles& observation, const Recipe& recipe) {
+Hash128 of_all(const ObservationFiles& observation, Recipe recipe) {
+  recipe.automatic = true;  // whether schools are looked for changes nothing of a ping
   Key key;
   key.add(std::string(kStageVersions)).add(recipe_hash(recipe)).add(identity(observation.config));
   key.add(observation.range.first_m).add(observation.range.spacing_m).add(observation.range.count);
