@@ -14,8 +14,8 @@
 #include "pipeline/commands/command.h"
 #include "pipeline/journal/journals.h"
 #include "pipeline/stages/observe.h"
-#include "pipeline/tasks/merge.h"
 #include "pipeline/tasks/plan.h"
+#include "pipeline/tasks/run.h"
 
 namespace sonar {
 namespace {
@@ -53,9 +53,8 @@ bool whole_find(const ObservationProduct& product) {
 }
 
 /// Of the same pings on the same grid under the same recipe.
-std::optional<ObservationProduct> product_of(const fs::path& folder, const ObservationFiles& observation,
+std::optional<ObservationProduct> product_of(const fs::path& file, const ObservationFiles& observation,
                                              const Recipe& recipe) {
-  const fs::path file = product_path(folder, observation.name);
   std::error_code absent;
   if (!fs::exists(file, absent)) return std::nullopt;
   auto product = read_product(file);
@@ -65,9 +64,16 @@ std::optional<ObservationProduct> product_of(const fs::path& folder, const Obser
   return std::move(*product);
 }
 
-OtherFind find_in(const fs::path& folder, const ObservationFiles& observation, ObservationProduct product) {
+OtherFind find_in(const fs::path& file, ObservationProduct product) {
   product.background_db = {};
-  return {product_path(folder, observation.name), std::make_shared<const ObservationProduct>(std::move(product))};
+  return {file, std::make_shared<const ObservationProduct>(std::move(product))};
+}
+
+/// The file with what a run found by itself; empty where it holds decisions. With the extinction correction, figures hang on
+/// which of the ping's schools are rejected: those of the find then are none of any decided state.
+fs::path file_of_find(const fs::path& folder, const Plan& plan, const std::string& observation, const Recipe& recipe) {
+  if (plan.session.empty()) return product_path(folder, observation);
+  return recipe.measure.extinction.correct ? fs::path() : found_path(folder, observation);
 }
 
 /// Under another calibration, masks stay, but the product tells it as its recipe's.
@@ -112,10 +118,11 @@ std::optional<OtherFind> find_of_another_version(std::span<const fs::path> work_
                                                  const std::string& version) {
   for (const fs::path& folder : work_folders) {
     const auto plan = plan_of(folder);
-    if (!plan || !plan->session.empty()) continue;
-    auto product = product_of(folder, observation, recipe);
+    if (!plan) continue;
+    const fs::path file = file_of_find(folder, *plan, observation.name, recipe);
+    auto product = product_of(file, observation, recipe);
     if (!product || (product->program_version == version && product->stage_versions == kStageVersions)) continue;
-    return find_in(folder, observation, std::move(*product));
+    return find_in(file, std::move(*product));
   }
   return std::nullopt;
 }
@@ -130,7 +137,8 @@ std::map<std::size_t, OtherFind> finds_of_decided_runs(std::span<const fs::path>
     for (std::size_t i = 0; changed && i < survey.observations.size(); ++i) {
       const ObservationFiles& observation = survey.observations[i];
       if (known.contains(i) || finds.contains(i) || meet(*changed, survey, observation)) continue;
-      auto product = product_of(folder, observation, recipe);
+      const fs::path file = product_path(folder, observation.name);
+      auto product = product_of(file, observation, recipe);
       if (!product || std::ranges::any_of(product->schools, shaped_by_hand)) continue;
       // Figures then hang on which of the ping's schools are rejected: another word on one would leave the others' as they were.
       const auto rejected = [](const SchoolRow& school) { return school.status == "rejected"; };
@@ -139,7 +147,7 @@ std::map<std::size_t, OtherFind> finds_of_decided_runs(std::span<const fs::path>
       std::erase_if(product->diagnostics, [](const Diagnostic& note) {
         return note.code == DiagnosticCode::decision_lost || note.code == DiagnosticCode::decision_carried;
       });
-      finds.emplace(i, find_in(folder, observation, std::move(*product)));
+      finds.emplace(i, find_in(file, std::move(*product)));
     }
   }
   return finds;

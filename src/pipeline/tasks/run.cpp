@@ -4,12 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "base/hash.h"
 #include "io/atomic_file.h"
 #include "io/product_file.h"
+#include "pipeline/commands/command.h"
 #include "pipeline/journal/earlier.h"
+#include "pipeline/stages/observe_memory.h"
 
 namespace sonar {
 namespace {
@@ -66,6 +71,36 @@ Result<ObservationProduct> product_before(const SurveyFiles& survey, const Obser
   return elsewhere ? Result<ObservationProduct>{std::move(*elsewhere)} : there;
 }
 
+/// Whether lines say more of an observation, in which schools are looked for, than that.
+bool decides(const ReadJournal& journal, const std::vector<TimeNs>& times) {
+  return std::ranges::any_of(journal.lines(), [&](const ReadLine& read) {
+    if (read.act && std::holds_alternative<DetectCommand>(read.act->command)) return false;
+    return std::ranges::any_of(times_of(read), [&](const TimeSpan& span) {
+      return !times.empty() && span.first <= times.back() && span.last >= times.front();
+    });
+  });
+}
+
+/// Keeps what was found beside a product with decisions: a window carries them out on it and goes on, and need not detect
+/// again.
+/// recipe  by which schools are looked for
+Result<void> keep_find(const SurveyFiles& survey, const ObservationFiles& observation, const Recipe& recipe,
+                       ObserveOptions options, const std::filesystem::path& file, Work& work) {
+  options.journal = {};
+  if (is_right(file, observation_key(survey, observation, recipe, options))) return {};
+  const auto found = observe(survey, observation, recipe, options, work);
+  if (!found) return pass_on(found);
+  return write_product(*found, file, Beside::own_folder);
+}
+
+/// Where a product is itself what was found.
+void forget_find(const std::filesystem::path& file) {
+  if (!require_own_folder(file.parent_path())) return;
+  std::error_code absent;
+  std::filesystem::remove(file, absent);
+  std::filesystem::remove(file.parent_path(), absent);  // if that was the last
+}
+
 /// The product that is to be written; empty where the one that is there is right.
 Result<std::optional<ObservationProduct>> make_product(const SurveyFiles& survey, const ObservationFiles& observation,
                                                        const Recipe& recipe, ObserveOptions options,
@@ -74,8 +109,19 @@ Result<std::optional<ObservationProduct>> make_product(const SurveyFiles& survey
   const std::filesystem::path path = product_path(run.out, observation.name);
   if (!run.remeasure) {
     if (is_right(path, key)) return std::optional<ObservationProduct>{};
-    const auto numbers = earlier.schools_of(source_of(observation), datagram_times(survey, observation));
+    const std::vector<TimeNs> times = datagram_times(survey, observation);
+    const auto numbers = earlier.schools_of(source_of(observation), times);
     if (numbers) options.earlier = &*numbers;
+    Recipe finding = recipe;
+    finding.automatic |= asks_for_detection(options.journal.lines(), times);
+    const std::filesystem::path find = found_path(run.out, observation.name);
+    ObserveMemory memory;  // what is known of the find by then is not worked out again
+    if (finding.automatic && observation.grid && decides(options.journal, times)) {
+      options.memory = &memory;
+      if (auto kept = keep_find(survey, observation, finding, options, find, work); !kept) return pass_on(kept);
+    } else {
+      forget_find(find);
+    }
     auto made = observe(survey, observation, recipe, options, work);
     if (!made) return pass_on(made);
     return std::optional<ObservationProduct>{std::move(*made)};
@@ -137,12 +183,18 @@ std::filesystem::path product_path(const std::filesystem::path& out, const std::
   return out / "products" / (observation + ".nc");
 }
 
+std::filesystem::path found_path(const std::filesystem::path& out, const std::string& observation) {
+  return out / "found" / (observation + ".nc");
+}
+
 Result<RunReport> run_plan(const Plan& plan, const SurveyFiles& survey, const ReadJournal& journal,
                            const RunOptions& options, Work& work) {
   const auto tasks = possible_tasks(plan, options);
   if (!tasks) return pass_on(tasks);
   if (auto space = require_free_space(options.out, space_needed(*tasks)); !space) return pass_on(space);
-  if (require_own_folder(options.out / "products")) remove_leftovers(options.out / "products");
+  for (const auto& folder : {product_path(options.out, "").parent_path(), found_path(options.out, "").parent_path()}) {
+    if (require_own_folder(folder)) remove_leftovers(folder);
+  }
   ObserveOptions observe_options{options.pings, journal, options.program_version};
   const EarlierProducts earlier(options.out);
   RunReport report;

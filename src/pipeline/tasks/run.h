@@ -40,6 +40,9 @@ struct RunReport {
 /// Where the product of an observation lies below OUT.
 [[nodiscard]] std::filesystem::path product_path(const std::filesystem::path& out, const std::string& observation);
 
+/// Where what was found in an observation lies if its product holds decisions: one like it, without them.
+[[nodiscard]] std::filesystem::path found_path(const std::filesystem::path& out, const std::string& observation);
+
 /// Whether the plan has what is asked for: to be known before anything is written.
 /// errors   usage: no such observation or task, or no such ping in it
 [[nodiscard]] Result<void> require_possible(const Plan& plan, const RunOptions& options);

@@ -156,11 +156,12 @@ Result<NamedToOpen> told_apart(std::span<const fs::path> paths) {
 
 fs::path product_in(std::span<const fs::path> work_folders, const std::string& observation, const std::string& key) {
   for (const fs::path& folder : work_folders) {
-    fs::path file = product_path(folder, observation);
-    std::error_code absent;
-    if (!fs::exists(file, absent)) continue;
-    const auto known = read_product_key(file);
-    if (known && known->input_hash == key) return file;
+    for (const fs::path& file : {product_path(folder, observation), found_path(folder, observation)}) {
+      std::error_code absent;
+      if (!fs::exists(file, absent)) continue;
+      const auto known = read_product_key(file);
+      if (known && known->input_hash == key) return file;
+    }
   }
   return {};
 }

@@ -42,7 +42,7 @@ struct NamedToOpen {
 [[nodiscard]] Result<void> require_results_of(const std::filesystem::path& out,
                                               std::span<const std::filesystem::path> survey);
 
-/// The product of an observation that was made from the same pings in the same way; empty where no folder has it.
+/// The product of an observation, or what a run kept of its find, made from the same pings so; empty where no folder has it.
 /// key  observation_key() of them
 [[nodiscard]] std::filesystem::path product_in(std::span<const std::filesystem::path> work_folders,
                                                const std::string& observation, const std::string& key);
@@ -52,7 +52,7 @@ struct OtherFind {
   std::filesystem::path file;
   std::shared_ptr<const ObservationProduct> product;  ///< without background levels
 };
-/// Of runs without decisions, from the same pings on the same grid under the same recipe, so that its masks lie where they
+/// Without decisions, from the same pings on the same grid under the same recipe, so that its masks lie where they
 /// lay; empty where no folder has one.
 /// version  this one's
 [[nodiscard]] std::optional<OtherFind> find_of_another_version(std::span<const std::filesystem::path> work_folders,

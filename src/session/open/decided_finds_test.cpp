@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results of a run that was given decisions, which changed no mask, are shown without detecting again.
+// Results of a run that was given decisions are shown without detecting again.
 #include "pipeline/tasks/decided_finds.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -68,7 +70,7 @@ class DecidedFinds : public testing::Test, protected TestApp {
   }
   std::int64_t paint_in(std::size_t observation) {
     BrushCommand command;
-    command.runs.push_back({voxel(observation).channel, voxel(observation).sample, 6});
+    command.runs.push_back({voxel(observation).channel, voxel(observation).sample - 4, 6});
     return say(observation, command);
   }
   void take_back(std::int64_t line) {
@@ -112,6 +114,28 @@ class DecidedFinds : public testing::Test, protected TestApp {
     document().open({path});
     document().settle();
   }
+  static std::uint64_t voxels_of(const ObservationProduct& product) {
+    std::uint64_t sum = 0;
+    for (const SchoolMask& mask : product.masks) sum += mask.mask.voxels();
+    return sum;
+  }
+  /// By pings, without those that have none.
+  static std::vector<double> backscatter_m2(const ObservationProduct& product) {
+    std::vector<double> of_pings;
+    for (const SchoolPingRow& row : product.school_pings) {
+      if (std::isfinite(row.backscatter_m2)) of_pings.push_back(row.backscatter_m2);
+    }
+    return of_pings;
+  }
+  [[nodiscard]] std::uint64_t found_voxels(std::size_t observation) const { return voxels_of(found_[observation]); }
+  [[nodiscard]] std::uint64_t made_voxels(std::size_t observation) const { return voxels_of(made_[observation]); }
+  [[nodiscard]] std::uint64_t voxels(std::size_t observation) {
+    std::uint64_t sum = 0;
+    for (const auto& school : document().state(observation).schools) {
+      for (const auto& in_ping : school->masks.pings) sum += in_ping.mask.voxels();
+    }
+    return sum;
+  }
   [[nodiscard]] std::string species(std::size_t observation) {
     const auto& schools = document().state(observation).schools;
     return schools.empty() ? "no school" : schools.front()->masks.decided.species;
@@ -144,9 +168,11 @@ TEST_F(DecidedFinds, AreShownWithTheirDecisionsAndFiguresWhereTheseChangedNoMask
   EXPECT_EQ(document().product(0)->input_hash, "") << "it is no find of this version";
   EXPECT_EQ(document().product(0)->school_pings.size(), made_[0].school_pings.size());
   EXPECT_EQ(document().product(0)->schools.front().backscatter_m2, made_[0].schools.front().backscatter_m2);
-  EXPECT_THAT(document().notices(), Contains(AllOf(HasSubstr("the schools of 1 observation are shown as version test"),
+  EXPECT_THAT(document().notices(), Contains(AllOf(HasSubstr("the schools of 2 observations are shown as version test"),
                                                    HasSubstr("Ctrl+D"))));
-  EXPECT_EQ(document().as_made(1), nullptr) << "what was painted would be painted twice";
+  EXPECT_TRUE(document().as_made(1)) << "the run kept what it had found";
+  EXPECT_EQ(voxels(1), made_voxels(1)) << "what was painted is painted once";
+  EXPECT_GT(voxels(1), found_voxels(1));
   open(raw_, "another");
   EXPECT_EQ(document().as_made(0), nullptr);
   ASSERT_TRUE(document().product(0));
@@ -158,10 +184,66 @@ TEST_F(DecidedFinds, OfThisVersionTooAreNotDetectedAgain) {
   say_species(0);
   run();
   open(out_, "test");
+  EXPECT_TRUE(document().detected(0));
+  EXPECT_EQ(document().as_made(0), nullptr) << "the run kept its find, under the key of a run without decisions";
+  EXPECT_TRUE(document().detected(1)) << "nothing was said of it: it is such a find";
+  EXPECT_EQ(species(0), "herring");
+}
+
+// As `follow` leaves them.
+TEST_F(DecidedFinds, OfThisVersionAreNotDetectedAgainWhereNoFindWasKept) {
+  say_species(0);
+  run();
+  fs::remove_all(out_ / "found");
+  open(out_, "test");
   EXPECT_TRUE(document().as_made(0));
-  EXPECT_TRUE(document().detected(1)) << "nothing was said of it: its key is that of a run without decisions";
+  EXPECT_TRUE(document().detected(1));
   EXPECT_EQ(species(0), "herring");
   EXPECT_THAT(document().notices(), Contains(HasSubstr("as a run with decisions left them")));
+}
+
+// As a run without decisions left it, under its key.
+TEST_F(DecidedFinds, OfThisVersionAreFoundUnderAllDecisionsThatChangedMasks) {
+  paint_in(0);
+  say(1, BadPingsCommand{voxel(1).ping_time, voxel(1).ping_time});
+  run();
+  ASSERT_NE(made_voxels(0), found_voxels(0));
+  ASSERT_NE(made_voxels(1), found_voxels(1));
+  open(out_, "test");
+  for (const std::size_t observation : {0U, 1U}) {
+    EXPECT_TRUE(document().detected(observation));
+    ASSERT_TRUE(document().product(observation));
+    EXPECT_EQ(voxels_of(*document().product(observation)), made_voxels(observation));
+    EXPECT_EQ(backscatter_m2(*document().product(observation)), backscatter_m2(made_[observation]));
+  }
+}
+
+// A window's recipe looks for schools where it is asked to.
+TEST_F(DecidedFinds, OfARunUnderAWindowsRecipeAreFoundToo) {
+  recipe_.automatic = false;
+  say(0, DetectCommand{0});
+  say(1, DetectCommand{0});
+  paint_in(0);
+  run();
+  EXPECT_FALSE(fs::exists(found_path(out_, made_[1].observation))) << "nothing but that was said of it";
+  open(out_, "test");
+  EXPECT_TRUE(document().detected(0));
+  EXPECT_EQ(voxels(0), made_voxels(0));
+  const auto find = kept_detected(found_path(out_, made_[0].observation), found_[0].input_hash);
+  ASSERT_TRUE(find) << "as of a run without decisions";
+  EXPECT_EQ(voxels_of(*find), found_voxels(0));
+}
+
+TEST_F(DecidedFinds, WhatIsNoLongerDecidedLeavesNoFind) {
+  const std::int64_t painted = paint_in(0);
+  run();
+  const fs::path found = found_path(out_, made_[0].observation);
+  EXPECT_TRUE(fs::exists(found));
+  EXPECT_FALSE(fs::exists(found_path(out_, made_[1].observation))) << "nothing was said of it";
+  take_back(painted);
+  run();
+  EXPECT_FALSE(fs::exists(found));
+  EXPECT_FALSE(fs::exists(found.parent_path()));
 }
 
 TEST_F(DecidedFinds, WhatWasLookedForInSomePingsIsNotAllThatIsThere) {
@@ -176,6 +258,7 @@ TEST_F(DecidedFinds, MasksThatWereKeptMayBeOthersThanWhatIsFound) {
   say_species(0);
   run();
   run({}, true);
+  fs::remove_all(out_ / "found");
   open(out_, "another");
   EXPECT_EQ(document().as_made(0), nullptr);
   EXPECT_EQ(document().as_made(1), nullptr);
@@ -216,6 +299,7 @@ TEST_F(DecidedFinds, SchoolsThatWereShapedByHandAreNotShownAsFound) {
   run();
   fs::remove(session_);
   say_species(0);
+  fs::remove(found_path(out_, made_[0].observation));
   open(out_, "another");
   EXPECT_EQ(document().as_made(0), nullptr);
   EXPECT_TRUE(document().as_made(1));
