@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kLowWindow_px = 1000;
 constexpr int kWholeTree_px = 300;
+constexpr int kWholeControls_px = 360;
 constexpr int kNarrowScreen_px = 1200;  ///< tree, views and controls do not stand beside each other
 constexpr int kLowScreen_px = 700;      ///< two rows of views and one of lists do not stand above each other
 
@@ -101,10 +102,11 @@ void lay_out_docks(QMainWindow& window) {
   behind(window, tables, {"school_pings", "review", "refused", "marks", "chart", "frequency", "curves"});
   const int width = window.width();
   const int height = window.height();
-  // The tree's name, time, pings and schools are seen where the views can spare the room.
-  const int tree = std::max(width / 6, std::min(kWholeTree_px, width * 22 / 100));
-  const int each = (width - tree - width / 5) / 2;
-  share(window, Qt::Horizontal, {{left, tree}, {top, each}, {side, each}, {right, width / 5}});
+  // The tree's name, time, pings and schools are seen where the views can spare the room; what is left in wide windows is theirs.
+  const int tree = std::min(kWholeTree_px, width * 22 / 100);
+  const int controls = std::min(kWholeControls_px, width / 5);
+  const int each = (width - tree - controls) / 2;
+  share(window, Qt::Horizontal, {{left, tree}, {top, each}, {side, each}, {right, controls}});
   share(window, Qt::Horizontal, {{time, each}, {tables, each}});
   share(window, Qt::Vertical, {{left, height * 2 / 3}, {notes, height / 3}});
   // In a low window a quarter is too little for a strip of masks with its titles.

@@ -152,6 +152,19 @@ TEST_F(Docks, AtItsFirstStartTheWindowFitsItsScreen) {
   EXPECT_EQ(size, fitting);
 }
 
+TEST_F(Docks, TheRoomOfAWideWindowGoesToItsViews) {
+  std::vector<int> beside_views;
+  for (const QSize size : {QSize(1920, 1080), QSize(3456, 1944)}) {
+    window_->resize(size);
+    settle();
+    app_->dialogs.reset_layout();
+    settle();
+    ASSERT_EQ(window_->size(), size);
+    beside_views.push_back(size.width() - view("top_slice")->width() - view("side_slice")->width());
+  }
+  EXPECT_NEAR(beside_views[1], beside_views[0], 40) << "tree and controls are as wide as their words";
+}
+
 TEST_F(Docks, ResizingKeepsEveryPictureAsLargeAsItsView) {
   window_->resize(1400, 900);
   settle();
