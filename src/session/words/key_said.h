@@ -17,6 +17,7 @@ class KeySaid {
  public:
   /// Both outlive this.
   KeySaid(Workspace& workspace, Actions& actions);
+  ~KeySaid() = default;
   KeySaid(const KeySaid&) = delete;
   KeySaid& operator=(const KeySaid&) = delete;
 
