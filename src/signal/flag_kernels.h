@@ -9,7 +9,7 @@
 
 namespace sonar {
 
-// Vector kernels of the noise flags, chosen at run time for the processor. Internal to this room.
+// Vector kernels of the noise flags, chosen at run time for the processor.
 
 /// out = counts - offset, saturating and never below -32767; kNoData where a flag of `mask` stands or there is no data.
 /// Equal lengths.

@@ -10,6 +10,7 @@
 
 #include "base/check.h"
 #include "base/units.h"
+#include "signal/flag_kernels.h"
 
 namespace sonar {
 namespace {
@@ -26,16 +27,6 @@ struct BlockSum {
   double sum = 0.0;
   int number = 0;
 };
-
-/// Copies a row; what has no say is no data. Loops of such a shape become vector instructions.
-void keep_heard(std::span<const std::int16_t> counts, std::span<const SampleFlags> flags,
-                std::span<std::int16_t> heard) {
-  const auto* flag = reinterpret_cast<const std::uint8_t*>(flags.data());
-  for (std::size_t s = 0; s < counts.size(); ++s) {
-    const std::int16_t count = counts[s];
-    heard[s] = (flag[s] & static_cast<std::uint8_t>(kNotFiltered)) != 0 ? kNoData : count;
-  }
-}
 
 /// Of kTogether blocks that follow each other.
 void add_up(const std::int16_t* heard, std::size_t length, BlockSum* out) {
@@ -66,7 +57,7 @@ Array3<std::int16_t> block_means(View3<const std::int16_t> sv, View3<const Sampl
   std::vector<std::int16_t> heard(groups * kTogether * length, kNoData);
   std::vector<BlockSum> sums(groups * kTogether);
   for (int row = 0; row < static_cast<int>(shape.rows()); ++row) {
-    keep_heard(sv.row(row), flags.row(row), heard);
+    copy_unflagged(sv.row(row), flags.row(row), kNotFiltered, 0, std::span(heard).first(sv.row(row).size()));
     for (std::size_t group = 0; group < groups; ++group) {
       add_up(heard.data() + group * kTogether * length, length, sums.data() + group * kTogether);
     }
