@@ -93,15 +93,15 @@ Theme with_text(Theme theme, double least_px) {
 
 Rgba8 school_colour(int number) {
   // Each as far as may be from the others as all kinds of eyes see them, from the backgrounds, from the grey of rejected
-  // schools and from the colours of viridis and EK500; in the order that sets numbers one and two apart, and twelve
+  // schools and from every colour of every palette; in the order that sets numbers one and two apart, and twelve
   // apart, farthest from each other, the dull ones last. A number alone tells its colour: chosen for
   // what happens to be in a picture, it would change from ping to ping and from view to view.
   static constexpr std::array<Rgba8, kSchoolColours> kColours = {
-      {{230, 159, 0, 255},   {86, 180, 233, 255},  {172, 7, 2, 255},     {187, 34, 255, 255}, {119, 0, 136, 255},
-       {213, 94, 0, 255},    {0, 108, 192, 255},   {35, 254, 255, 255},  {136, 0, 51, 255},   {204, 121, 167, 255},
-       {51, 0, 204, 255},    {153, 68, 119, 255},  {146, 207, 252, 255}, {237, 193, 93, 255}, {78, 12, 48, 255},
-       {126, 120, 96, 255},  {147, 177, 119, 255}, {36, 12, 96, 255},    {105, 0, 8, 255},    {203, 0, 170, 255},
-       {174, 197, 173, 255}, {84, 60, 90, 255},    {137, 121, 221, 255}, {166, 249, 153, 255}}};
+      {{42, 157, 211, 255},  {206, 64, 124, 255},  {45, 215, 0, 255},    {134, 12, 255, 255},  {248, 189, 185, 255},
+       {106, 0, 44, 255},    {126, 129, 0, 255},   {163, 45, 143, 255},  {230, 104, 158, 255}, {154, 158, 47, 255},
+       {88, 29, 201, 255},   {42, 250, 18, 255},   {143, 4, 4, 255},     {8, 115, 195, 255},   {82, 0, 150, 255},
+       {177, 174, 255, 255}, {81, 110, 71, 255},   {229, 155, 141, 255}, {177, 255, 162, 255}, {144, 112, 255, 255},
+       {112, 59, 88, 255},   {214, 204, 255, 255}, {41, 0, 82, 255},     {71, 0, 0, 255}}};
   const int n = static_cast<int>(kColours.size());
   return kColours[static_cast<std::size_t>(((number % n) + n) % n)];
 }
