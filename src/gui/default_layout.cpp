@@ -11,6 +11,7 @@ namespace {
 constexpr int kLowWindow_px = 1000;
 constexpr int kWholeTree_px = 300;
 constexpr int kWholeControls_px = 360;
+constexpr int kLeastView_px = 400;      ///< a slice with its title and colours
 constexpr int kNarrowScreen_px = 1200;  ///< tree, views and controls do not stand beside each other
 constexpr int kLowScreen_px = 700;      ///< two rows of views and one of lists do not stand above each other
 
@@ -71,6 +72,37 @@ void lay_out_small(QMainWindow& window) {
   share(window, Qt::Vertical, {{top, height * 6 / 10}, {time, height * 4 / 10}});
 }
 
+/// Beside the views: tree and notes, and the controls.
+struct Sides {
+  QDockWidget* tree;
+  QDockWidget* notes;
+  QDockWidget* controls;
+  int tree_px;
+  int controls_px;
+  bool one_column;  ///< where the views cannot spare two, the controls stand under tree and notes
+
+  explicit Sides(QMainWindow& window)
+      : tree(put(window, Qt::LeftDockWidgetArea, "survey_tree")),
+        notes(put(window, Qt::LeftDockWidgetArea, "diagnostics")),
+        // The tree's name, time, pings and schools are seen where the views can spare the room; what is left in wide
+        // windows is theirs.
+        tree_px(std::min(kWholeTree_px, window.width() * 22 / 100)),
+        controls_px(std::min(kWholeControls_px, window.width() / 5)),
+        one_column(window.width() - tree_px - controls_px < 2 * kLeastView_px) {
+    controls = put(window, one_column ? Qt::LeftDockWidgetArea : Qt::RightDockWidgetArea, "controls");
+  }
+  void stack(QMainWindow& window) const {
+    if (one_column) behind(window, tree, {"diagnostics", "journal"});
+    if (!one_column) behind(window, notes, {"journal"});
+  }
+  [[nodiscard]] int width_px() const { return one_column ? kWholeControls_px : tree_px + controls_px; }
+  void share_height(QMainWindow& window) const {
+    const int third = window.height() / 3;
+    if (one_column) share(window, Qt::Vertical, {{tree, third}, {controls, 2 * third}});
+    if (!one_column) share(window, Qt::Vertical, {{tree, 2 * third}, {notes, third}});
+  }
+};
+
 }  // namespace
 
 void lay_out_docks(QMainWindow& window) {
@@ -78,11 +110,11 @@ void lay_out_docks(QMainWindow& window) {
   window.setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
   window.setCorner(Qt::TopRightCorner, Qt::RightDockWidgetArea);
   window.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
-  if (window.width() < kNarrowScreen_px || window.height() < kLowScreen_px) return lay_out_small(window);
-  QDockWidget* left = put(window, Qt::LeftDockWidgetArea, "survey_tree");
-  QDockWidget* notes = put(window, Qt::LeftDockWidgetArea, "diagnostics");
-  QDockWidget* right = put(window, Qt::RightDockWidgetArea, "controls");
-  behind(window, right,
+  const int width = window.width();
+  const int height = window.height();
+  if (width < kNarrowScreen_px || height < kLowScreen_px) return lay_out_small(window);
+  const Sides sides(window);
+  behind(window, sides.controls,
          {"range_slice", "plane_slice", "noise_steps"});  // out of the way: a row of all seven would widen the window
   QDockWidget* top = put(window, Qt::TopDockWidgetArea, "top_slice");
   QDockWidget* side = put(window, Qt::TopDockWidgetArea, "side_slice");
@@ -96,19 +128,15 @@ void lay_out_docks(QMainWindow& window) {
   beside(window, side, volume, Qt::Vertical);
   beside(window, time, tables, Qt::Horizontal);
   behind(window, side, {"range_slice", "plane_slice", "noise_steps"});
-  behind(window, notes, {"journal"});
   behind(window, maps, {"survey_map"});
   behind(window, time, {"echogram", "survey_timeline", "propagation", "lineage"});
   behind(window, tables, {"school_pings", "review", "refused", "marks", "chart", "frequency", "curves"});
-  const int width = window.width();
-  const int height = window.height();
-  // The tree's name, time, pings and schools are seen where the views can spare the room; what is left in wide windows is theirs.
-  const int tree = std::min(kWholeTree_px, width * 22 / 100);
-  const int controls = std::min(kWholeControls_px, width / 5);
-  const int each = (width - tree - controls) / 2;
-  share(window, Qt::Horizontal, {{left, tree}, {top, each}, {side, each}, {right, controls}});
+  sides.stack(window);
+  const int each = (width - sides.width_px()) / 2;
+  share(window, Qt::Horizontal, {{sides.tree, sides.tree_px}, {top, each}, {side, each}});
+  share(window, Qt::Horizontal, {{sides.controls, sides.controls_px}});
   share(window, Qt::Horizontal, {{time, each}, {tables, each}});
-  share(window, Qt::Vertical, {{left, height * 2 / 3}, {notes, height / 3}});
+  sides.share_height(window);
   // In a low window a quarter is too little for a strip of masks with its titles.
   const int below = height < kLowWindow_px ? height * 32 / 100 : height / 4;
   const int above = (height - below) / 2;

@@ -1,25 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <QLineEdit>
 #include <QStatusBar>
 #include <functional>
 
 namespace sonar {
 
-/// A status bar whose message loses nothing in a narrow window: what has no room ends in an ellipsis and is whole under the
-/// pointer. A click on the message leads to those before it.
+/// The foot of a window: the values under the pointer or the last notice, what waits for an answer to its right. Words that
+/// have no room in its line unfold upwards, over the views: nothing is cut, and nothing moves. A click on a notice leads to
+/// those before it.
 class NoticeBar : public QStatusBar {
  public:
-  NoticeBar(QWidget* parent, std::function<void()> clicked);
+  NoticeBar(QWidget* window, std::function<void()> clicked);
+
+  /// A line of text, not a label: its words can be copied, and new ones do not have the whole window laid out anew.
+  [[nodiscard]] QLineEdit& read_out() const { return *read_out_; }
+  void tell(const QString& under_pointer);
 
  protected:
-  void paintEvent(QPaintEvent* event) override;
+  bool event(QEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
 
  private:
   [[nodiscard]] QRect room() const;
+  void unfold();
 
   std::function<void()> clicked_;
+  QLineEdit* read_out_;
+  QWidget* unfolded_;
 };
 
 }  // namespace sonar

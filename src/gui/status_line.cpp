@@ -57,11 +57,14 @@ void show_progress(QProgressBar& bar, QPushButton& cancel, const Document& docum
   const Progress progress = document.activity();
   const bool running = !progress.stage.empty();
   bar.setVisible(running);
+  if (!running) bar.setFixedWidth(kProgressWidth_px);
   cancel.setVisible(!document.progress().stage.empty() || document.busy());
   if (!running) return;
   const QString stage = QString::fromStdString(progress.stage);
   bar.setFormat(stage + " %p %");
-  bar.setToolTip(stage);  // a long one is cut
+  // As wide as its words; no narrower while the work goes on, for what counts must not make it tremble.
+  const int words = bar.fontMetrics().horizontalAdvance(stage + " 100 %  ");
+  bar.setFixedWidth(std::clamp(words, bar.width(), std::max(bar.width(), bar.window()->width() / 2)));
   bar.setRange(0, static_cast<int>(progress.total));
   bar.setValue(static_cast<int>(progress.done));
 }
@@ -109,20 +112,13 @@ void add_status_line(QMainWindow& window, AppModel& app) {
   Workspace& workspace = app.workspace;
   auto* status = new NoticeBar(&window, [&window] { show_diagnostics(window); });
   window.setStatusBar(status);
-  // A line of text, not a label: a label's new text has the whole window laid out anew.
-  auto* cursor = new QLineEdit(status);
-  cursor->setObjectName("read_out");
-  cursor->setAccessibleName(translated("Values under the pointer"));
-  cursor->setReadOnly(true);
-  cursor->setFrame(false);
-  cursor->setFocusPolicy(Qt::ClickFocus);
+  QLineEdit* cursor = &status->read_out();
   auto* bar = new QProgressBar(status);
   bar->setAccessibleName(translated("Progress"));
   bar->setFixedWidth(kProgressWidth_px);
   auto* cancel = new QPushButton(translated("Cancel"), status);
   cancel->setFlat(true);
   keep_own_keys(*cancel);
-  status->addWidget(cursor, 1);
   // A school that was carried as far as its reach; two schools that may be one; an observation in which nobody has detected schools or marked any.
   add_offer(*status, app, kContinueAction, "continue", app.actions.find(kContinueAction)->enabled);
   add_offer(*status, app, kMergeProposedAction, "merge", app.actions.find(kMergeProposedAction)->enabled);
@@ -142,14 +138,12 @@ void add_status_line(QMainWindow& window, AppModel& app) {
     document.progress().stage.empty() ? document.stop_propagation() : document.cancel();
   });
   const auto told = std::make_shared<QElapsedTimer>();
-  const auto read = [cursor, status, told, &workspace] {
+  const auto read = [status, told, &workspace] {
     if (told->isValid() && told->hasExpired(kNoticeAtLeast_ms)) {
       told->invalidate();
       status->clearMessage();
     }
-    cursor->setText(text_at_cursor(workspace));
-    cursor->setCursorPosition(0);
-    cursor->setToolTip(cursor->text());  // a narrow window cuts off some of it
+    status->tell(text_at_cursor(workspace));
   };
   Listening& listening = listening_of(*status);
   listening.to(workspace.cursor.changed(), read);

@@ -165,6 +165,18 @@ TEST_F(Docks, TheRoomOfAWideWindowGoesToItsViews) {
   EXPECT_NEAR(beside_views[1], beside_views[0], 40) << "tree and controls are as wide as their words";
 }
 
+TEST_F(Docks, ASmallScreensViewsHaveRoomForTheirTitles) {
+  window_->resize(1280, 800);
+  settle();
+  app_->dialogs.reset_layout();
+  settle();
+  for (const char* name : {"top_slice", "side_slice", "observation_map", "volume"}) {
+    EXPECT_GE(view(name)->width(), 400) << name;
+  }
+  EXPECT_TRUE(dock("controls")->isVisible());
+  EXPECT_TRUE(dock("survey_tree")->isVisible());
+}
+
 TEST_F(Docks, ResizingKeepsEveryPictureAsLargeAsItsView) {
   window_->resize(1400, 900);
   settle();

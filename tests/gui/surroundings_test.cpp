@@ -63,30 +63,47 @@ TEST_F(Surroundings, AJournalThatMustGoElsewhereIsTold) {
   EXPECT_TRUE(fs::exists(own / "session.jsonl"));
 }
 
-TEST_F(Surroundings, NothingInTheStatusLineIsCutWithoutBeingWholeUnderThePointer) {
+TEST_F(Surroundings, NothingInTheStatusLineIsCut) {
   window_->resize(1280, 800);
   look_at_school();
-  move("top_slice", {100.0, 100.0});
   QStatusBar* status = window_->statusBar();
+  auto* unfolded = window_->findChild<QWidget*>("unfolded");
+  const auto at_the_foot = [&](const QString& words) {
+    const int lines = unfolded->height() / unfolded->fontMetrics().height();
+    EXPECT_EQ(unfolded->geometry().bottom(), status->geometry().bottom());
+    EXPECT_LE(unfolded->fontMetrics().horizontalAdvance(words), lines * unfolded->width()) << "there is room for all";
+  };
+  const int views = view("top_slice")->height();
+  move("top_slice", {100.0, 100.0});
   auto* read_out = window_->findChild<QLineEdit*>("read_out");
   ASSERT_FALSE(read_out->text().isEmpty());
-  EXPECT_EQ(read_out->toolTip(), read_out->text());
+  ASSERT_GT(read_out->fontMetrics().horizontalAdvance(read_out->text()), read_out->width())
+      << "else this shows nothing";
+  ASSERT_TRUE(unfolded->isVisible());
+  at_the_foot(read_out->text());
+  keep_picture("read-out-unfolded");
   for (const auto* button : status->findChildren<QPushButton*>()) {
     if (!button->isVisible()) continue;
     EXPECT_GE(button->width(), button->fontMetrics().horizontalAdvance(button->text())) << button->text().toStdString();
   }
+  document().tell("written: short");
+  settle();
+  EXPECT_FALSE(unfolded->isVisible());
   const std::string notice = "written: " + std::string(300, 'x') + "/survey-out";
   document().tell(notice);
   settle();
-  EXPECT_LT(status->width(), status->fontMetrics().horizontalAdvance(QString::fromStdString(notice)));
-  EXPECT_EQ(status->toolTip().toStdString(), notice);
-  keep_picture("notice-cut");
+  ASSERT_TRUE(unfolded->isVisible());
+  at_the_foot(QString::fromStdString(notice));
+  EXPECT_EQ(view("top_slice")->height(), views) << "nothing moves for it";
+  keep_picture("notice-unfolded");
   dock("diagnostics")->close();
   QTest::mouseClick(status, Qt::LeftButton, {}, {20, status->height() / 2});
   settle();
   EXPECT_TRUE(dock("diagnostics")->isVisible()) << "the history of notices";
+  move("top_slice", {5.0, 5.0});
   status->clearMessage();
   EXPECT_TRUE(status->toolTip().isEmpty());
+  EXPECT_FALSE(unfolded->isVisible());
 }
 
 TEST_F(Surroundings, F12ShowsHowLongPicturesTook) {
