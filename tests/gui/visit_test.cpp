@@ -130,18 +130,19 @@ class LongReview : public Visit {
   }
 };
 
-TEST_F(LongReview, OfAHundredSchoolsTakesTwoKeysEachAndOneToBegin) {
+TEST_F(LongReview, OfAHundredSchoolsTakesTwoKeysEach) {
   ASSERT_NO_FATAL_FAILURE(paint_schools(100));
+  close();
+  open();
+  ASSERT_TRUE(workspace().school()) << "who comes back has one selected";
   raise("review");
   ASSERT_TRUE(app_->preferences.advance);
-  hit(Qt::Key_N);
-  ASSERT_TRUE(workspace().school());
   for (int i = 0; i < 100; ++i) {
     tap(i % 3 == 0 ? Qt::Key_1 : Qt::Key_2);
     tap(i % 4 == 3 ? Qt::Key_R : Qt::Key_A);
   }
   settle();
-  EXPECT_LE(acts_, 201);
+  EXPECT_LE(acts_, 200);
   int accepted = 0;
   int rejected = 0;
   for (const auto& school : document().state().schools) {
