@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "view/theme.h"
 
@@ -59,6 +61,31 @@ bool LabelRoom::free(const PixelRect& box) const {
 
 bool LabelRoom::crossed(const PixelRect& box) const {
   return std::any_of(lines_.begin(), lines_.end(), [&](const Line& l) { return meets(l.a, l.b, box); });
+}
+
+std::optional<TextItem> LabelRoom::place_nearest(const TextItem& label) {
+  // Slid towards its anchor, a free box ends there, at a side of what is taken, or at one of the picture.
+  const PixelRect box = box_of(label);
+  std::vector<double> left{box.x, inside_.x, inside_.x + inside_.width - box.width};
+  std::vector<double> top{box.y, inside_.y, inside_.y + inside_.height - box.height};
+  for (const PixelRect& t : taken_) {
+    constexpr double kApart_px = 1e-6;
+    left.insert(left.end(), {t.x - box.width - kApart_px, t.x + t.width + kApart_px});
+    top.insert(top.end(), {t.y - box.height - kApart_px, t.y + t.height + kApart_px});
+  }
+  std::optional<TextItem> nearest;
+  double least_px = std::numeric_limits<double>::infinity();
+  for (const double x : left) {
+    for (const double y : top) {
+      const double away_px = std::hypot(x - box.x, y - box.y);
+      if (away_px >= least_px || !free({x, y, box.width, box.height})) continue;
+      least_px = away_px;
+      nearest = label;
+      nearest->at = {label.at.x + (x - box.x), label.at.y + (y - box.y)};
+    }
+  }
+  if (nearest) taken_.push_back(box_of(*nearest));
+  return nearest;
 }
 
 TextItem LabelRoom::force(TextItem label) {

@@ -43,6 +43,19 @@ PixelPoint edge_towards(const PixelRect& box, PixelPoint at) {
   return {std::clamp(at.x, box.x, box.x + box.width), std::clamp(at.y, box.y, box.y + box.height)};
 }
 
+/// A line from a place to its number.
+void add_leader(FrameDescription& frame, LabelRoom& room, const PixelRect& number, const NumberedPlace& place,
+                const Theme& theme) {
+  const PixelPoint end = edge_towards(number, place.at);
+  const double length = std::hypot(end.x - place.at.x, end.y - place.at.y);
+  const double part = length > 0.0 ? std::min(1.0, place.radius_px / length) : 0.0;
+  const PixelPoint from{place.at.x + part * (end.x - place.at.x), place.at.y + part * (end.y - place.at.y)};
+  for (const auto& [colour, width] : {std::pair(theme.halo, 2.6), std::pair(theme.text, 0.9)}) {
+    frame.items.emplace_back(line_item(from, end, colour, width * theme.line_px));
+  }
+  room.add_line(from, end);
+}
+
 }  // namespace
 
 std::optional<TextItem> placed_about(FrameDescription& frame, LabelRoom& room, const TextItem& label,
@@ -52,15 +65,7 @@ std::optional<TextItem> placed_about(FrameDescription& frame, LabelRoom& room, c
     const auto where = round_about(place, box, kGaps_em[i] * theme.text_px, i == 0 ? kNearDirections : kFarDirections);
     auto placed = room.place(label, where);
     if (!placed) continue;
-    if (i == 0) return placed;
-    const PixelPoint end = edge_towards(LabelRoom::box_of(*placed), place.at);
-    const double length = std::hypot(end.x - place.at.x, end.y - place.at.y);
-    const double part = length > 0.0 ? std::min(1.0, place.radius_px / length) : 0.0;
-    const PixelPoint from{place.at.x + part * (end.x - place.at.x), place.at.y + part * (end.y - place.at.y)};
-    for (const auto& [colour, width] : {std::pair(theme.halo, 2.6), std::pair(theme.text, 0.9)}) {
-      frame.items.emplace_back(line_item(from, end, colour, width * theme.line_px));
-    }
-    room.add_line(from, end);
+    if (i > 0) add_leader(frame, room, LabelRoom::box_of(*placed), place, theme);
     return placed;
   }
   return std::nullopt;
@@ -81,19 +86,6 @@ std::array<PixelPoint, 8> places_beside(const PixelRect& named, const TextItem& 
            {c.x - right, c.y + down}}};
 }
 
-namespace {
-
-/// Places on a rectangle, its middle first.
-std::vector<PixelPoint> places_upon(const PixelRect& rect) {
-  std::vector<PixelPoint> out;
-  for (const double y : {0.5, 0.3, 0.7, 0.1, 0.9}) {
-    for (const double x : {0.5, 0.3, 0.7, 0.1, 0.9}) out.push_back({rect.x + x * rect.width, rect.y + y * rect.height});
-  }
-  return out;
-}
-
-}  // namespace
-
 void add_selected_name(FrameDescription& frame, LabelRoom& room, TextItem name, const std::string& number,
                        const PixelRect& seen, const Theme& theme) {
   LabelRoom beside = room;
@@ -104,9 +96,13 @@ void add_selected_name(FrameDescription& frame, LabelRoom& room, TextItem name, 
     name.at = {seen.x + 0.5 * seen.width, seen.y + 0.5 * seen.height};
     placed = beside.place(name, places_beside(seen, name));
   }
-  const double radius = 0.5 * std::min(seen.width, seen.height);
-  if (!placed) placed = placed_about(frame, beside, name, {name.at, number, radius}, theme, 1);
-  if (!placed) placed = room.place(name, places_upon(seen));
+  const NumberedPlace place{name.at, number, 0.5 * std::min(seen.width, seen.height)};
+  if (!placed) placed = placed_about(frame, beside, name, place, theme, 1);
+  if (!placed) {
+    placed = beside.place_nearest(name);
+    if (placed) add_leader(frame, room, LabelRoom::box_of(*placed), place, theme);
+  }
+  if (!placed) placed = room.place_nearest(name);  // on the school: it fills the picture
   frame.items.emplace_back(placed ? *placed : room.force(name));
   room.take(seen);
   if (placed) room.take(LabelRoom::box_of(*placed));

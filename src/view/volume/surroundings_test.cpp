@@ -191,7 +191,7 @@ bool overlap(const PixelRect& a, const PixelRect& b) {
 }
 
 // Law: in 200 random views no label lies on a school, on what was taken before, or on another label; schools have their
-// names in most of them, and the selected one has its number in all that show it, on itself where it fills them.
+// names in most of them, and the selected one has its number in all that show it.
 TEST(SchoolPlaces, NoLabelLiesOnASchoolInTwoHundredViews) {
   const Sector sector = slice_example::hand_sector();
   ContextParams params;
@@ -208,7 +208,6 @@ TEST(SchoolPlaces, NoLabelLiesOnASchoolInTwoHundredViews) {
   RandomCameras cameras(sector);
   int names = 0;
   int seen = 0;
-  int upon = 0;
   for (int view = 0; view < 200; ++view) {
     const CameraBasis camera = basis(cameras.next(), kSize);
     FrameDescription frame{kSize, {}, {}, {}};
@@ -223,18 +222,15 @@ TEST(SchoolPlaces, NoLabelLiesOnASchoolInTwoHundredViews) {
       const auto* label = std::get_if<TextItem>(&item);
       if (label == nullptr) continue;  // a line to the number that stands farther off
       const PixelRect own = LabelRoom::box_of(*label);
-      const bool of_selected = label->text == "3";
-      selected += of_selected ? 1 : 0;
-      const bool on = std::ranges::any_of(boxes, [&](const PixelRect& box) { return overlap(own, box); });
-      upon += on ? 1 : 0;
-      ASSERT_TRUE(of_selected || !on) << view << ' ' << label->text;
+      selected += label->text == "3" ? 1 : 0;
+      ASSERT_TRUE(std::ranges::none_of(boxes, [&](const PixelRect& box) { return overlap(own, box); }))
+          << view << ' ' << label->text;
       boxes.push_back(own);
       names += label->text.size() == 1 ? 1 : 0;
     }
     ASSERT_EQ(selected, school_box(params.schools[2], camera) ? 1 : 0) << view;
   }
   EXPECT_GT(names, seen * 6 / 10);
-  EXPECT_LT(upon, 20);
 }
 
 // The outline of the slice from above lies at its fan's elevation, that of the slice from the side in its beam's plane.
