@@ -6,15 +6,13 @@
 #include <algorithm>
 #include <system_error>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include "base/hash.h"
 #include "io/atomic_file.h"
 #include "io/product_file.h"
-#include "pipeline/commands/command.h"
 #include "pipeline/journal/earlier.h"
 #include "pipeline/stages/observe_memory.h"
+#include "pipeline/tasks/kept_find.h"
 
 namespace sonar {
 namespace {
@@ -50,17 +48,6 @@ bool is_right(const std::filesystem::path& product, const std::string& key) {
   return there && there->input_hash == key;
 }
 
-/// Key of a product whose masks were kept: begins with the plan's key, goes on with the masks' own.
-std::string remeasured_key(const std::string& key, const ObservationProduct& before) {
-  Hasher hasher;
-  for (const SchoolMask& mask : before.masks) {
-    hasher.add(fmt::format("{} {} ", mask.school_id, mask.ping_index));
-    hasher.add(std::as_bytes(std::span(mask.mask.runs)));
-    hasher.add(std::as_bytes(std::span(mask.mask.confidence)));
-  }
-  return key + "-" + to_hex(hasher.value());
-}
-
 /// The product whose masks are kept: that of this name, or where names have shifted the one with these pings.
 Result<ObservationProduct> product_before(const SurveyFiles& survey, const ObservationFiles& observation,
                                           const std::filesystem::path& path, const EarlierProducts& earlier) {
@@ -71,36 +58,6 @@ Result<ObservationProduct> product_before(const SurveyFiles& survey, const Obser
   return elsewhere ? Result<ObservationProduct>{std::move(*elsewhere)} : there;
 }
 
-/// Whether lines say more of an observation, in which schools are looked for, than that.
-bool decides(const ReadJournal& journal, const std::vector<TimeNs>& times) {
-  return std::ranges::any_of(journal.lines(), [&](const ReadLine& read) {
-    if (read.act && std::holds_alternative<DetectCommand>(read.act->command)) return false;
-    return std::ranges::any_of(times_of(read), [&](const TimeSpan& span) {
-      return !times.empty() && span.first <= times.back() && span.last >= times.front();
-    });
-  });
-}
-
-/// Keeps what was found beside a product with decisions: a window carries them out on it and goes on, and need not detect
-/// again.
-/// recipe  by which schools are looked for
-Result<void> keep_find(const SurveyFiles& survey, const ObservationFiles& observation, const Recipe& recipe,
-                       ObserveOptions options, const std::filesystem::path& file, Work& work) {
-  options.journal = {};
-  if (is_right(file, observation_key(survey, observation, recipe, options))) return {};
-  const auto found = observe(survey, observation, recipe, options, work);
-  if (!found) return pass_on(found);
-  return write_product(*found, file, Beside::own_folder);
-}
-
-/// Where a product is itself what was found.
-void forget_find(const std::filesystem::path& file) {
-  if (!require_own_folder(file.parent_path())) return;
-  std::error_code absent;
-  std::filesystem::remove(file, absent);
-  std::filesystem::remove(file.parent_path(), absent);  // if that was the last
-}
-
 /// The product that is to be written; empty where the one that is there is right.
 Result<std::optional<ObservationProduct>> make_product(const SurveyFiles& survey, const ObservationFiles& observation,
                                                        const Recipe& recipe, ObserveOptions options,
@@ -109,23 +66,20 @@ Result<std::optional<ObservationProduct>> make_product(const SurveyFiles& survey
   const std::filesystem::path path = product_path(run.out, observation.name);
   if (!run.remeasure) {
     if (is_right(path, key)) return std::optional<ObservationProduct>{};
-    const std::vector<TimeNs> times = datagram_times(survey, observation);
-    const auto numbers = earlier.schools_of(source_of(observation), times);
+    const auto numbers = earlier.schools_of(source_of(observation), datagram_times(survey, observation));
     if (numbers) options.earlier = &*numbers;
-    Recipe finding = recipe;
-    finding.automatic |= asks_for_detection(options.journal.lines(), times);
-    const std::filesystem::path find = found_path(run.out, observation.name);
     ObserveMemory memory;  // what is known of the find by then is not worked out again
-    if (finding.automatic && observation.grid && decides(options.journal, times)) {
+    if (const auto finding = recipe_of_find(survey, observation, recipe, options.journal)) {
       options.memory = &memory;
-      if (auto kept = keep_find(survey, observation, finding, options, find, work); !kept) return pass_on(kept);
+      if (auto kept = keep_find(survey, observation, *finding, options, run.out, work); !kept) return pass_on(kept);
     } else {
-      forget_find(find);
+      forget_find(run.out, observation);
     }
     auto made = observe(survey, observation, recipe, options, work);
     if (!made) return pass_on(made);
     return std::optional<ObservationProduct>{std::move(*made)};
   }
+  if (auto found = remeasure_find(survey, observation, recipe, options, run.out, work); !found) return pass_on(found);
   const auto before = product_before(survey, observation, path, earlier);
   if (!before) return pass_on(before);
   const std::string kept_key = remeasured_key(key, *before);

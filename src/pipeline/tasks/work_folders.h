@@ -47,16 +47,4 @@ struct NamedToOpen {
 [[nodiscard]] std::filesystem::path product_in(std::span<const std::filesystem::path> work_folders,
                                                const std::string& observation, const std::string& key);
 
-/// What another version of the program found in an observation by itself.
-struct OtherFind {
-  std::filesystem::path file;
-  std::shared_ptr<const ObservationProduct> product;  ///< without background levels
-};
-/// Without decisions, from the same pings on the same grid under the same recipe, so that its masks lie where they
-/// lay; empty where no folder has one.
-/// version  this one's
-[[nodiscard]] std::optional<OtherFind> find_of_another_version(std::span<const std::filesystem::path> work_folders,
-                                                               const ObservationFiles& observation,
-                                                               const Recipe& recipe, const std::string& version);
-
 }  // namespace sonar

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results of a run that was given decisions are shown without detecting again.
-#include "pipeline/tasks/decided_finds.h"
+// Results of a run that was given decisions, or that kept masks, are shown without detecting again.
+#include "pipeline/tasks/other_finds.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,6 +16,8 @@
 
 #include "pipeline/journal/journals.h"
 #include "pipeline/stages/detected_cache.h"
+#include "pipeline/tasks/kept_find.h"
+#include "pipeline/tasks/run.h"
 #include "session/test_app.h"
 #include "session/test_run.h"
 
@@ -86,13 +88,18 @@ class DecidedFinds : public testing::Test, protected TestApp {
   /// Of version "test", as `sonarx run --session` makes them.
   void run(std::optional<PingSelection> pings = {}, bool remeasure = false) {
     const std::vector<fs::path> paths{raw_};
-    const auto journal = read_session(session_);
-    ASSERT_TRUE(journal);
-    const ReadJournal lines(effective_lines(journal->lines));
+    const fs::path session = fs::exists(session_) ? session_ : fs::path();
+    std::vector<JournalLine> said;
+    if (!session.empty()) {
+      const auto journal = read_session(session);
+      ASSERT_TRUE(journal);
+      said = effective_lines(journal->lines);
+    }
+    const ReadJournal lines(said);
     Work work;
     const auto survey = open_survey(paths, recipe_.survey, recipe_.navigation, {}, work);
     ASSERT_TRUE(survey);
-    const Plan plan = make_plan(*survey, paths, session_, recipe_, {{}, lines, "test"});
+    const Plan plan = make_plan(*survey, paths, session, recipe_, {{}, lines, "test"});
     RunOptions options;
     options.out = out_;
     options.program_version = "test";
@@ -100,6 +107,7 @@ class DecidedFinds : public testing::Test, protected TestApp {
     options.remeasure = remeasure;
     ASSERT_TRUE(run_plan(plan, *survey, lines, options, work));
     std::ofstream(out_ / "plan.json") << plan_text(plan);
+    keys_ = {plan.tasks[0].key, plan.tasks[1].key};
     for (std::size_t i = 0; i < 2 && !pings && !remeasure; ++i) {
       auto product = kept_detected(product_path(out_, plan.tasks[i].observation), plan.tasks[i].key);
       ASSERT_TRUE(product);
@@ -113,6 +121,13 @@ class DecidedFinds : public testing::Test, protected TestApp {
     app_ = std::make_unique<AppModel>(queue_, options);
     document().open({path});
     document().settle();
+  }
+  /// As it lies in OUT after it kept masks.
+  [[nodiscard]] ObservationProduct kept(std::size_t observation) const {
+    const ObservationProduct& before = made_[observation];
+    auto product = kept_detected(product_path(out_, before.observation), remeasured_key(keys_[observation], before));
+    EXPECT_TRUE(product);
+    return product ? *product : ObservationProduct{};
   }
   static std::uint64_t voxels_of(const ObservationProduct& product) {
     std::uint64_t sum = 0;
@@ -148,6 +163,7 @@ class DecidedFinds : public testing::Test, protected TestApp {
   Recipe recipe_;
   std::vector<ObservationProduct> found_;  ///< without decisions
   std::vector<ObservationProduct> made_;   ///< with them
+  std::vector<std::string> keys_;          ///< of the last run's tasks
   std::int64_t lines_ = 0;
 };
 
@@ -199,7 +215,7 @@ TEST_F(DecidedFinds, OfThisVersionAreNotDetectedAgainWhereNoFindWasKept) {
   EXPECT_TRUE(document().as_made(0));
   EXPECT_TRUE(document().detected(1));
   EXPECT_EQ(species(0), "herring");
-  EXPECT_THAT(document().notices(), Contains(HasSubstr("as a run with decisions left them")));
+  EXPECT_THAT(document().notices(), Contains(HasSubstr("as the run left them")));
 }
 
 // As a run without decisions left it, under its key.
@@ -254,14 +270,49 @@ TEST_F(DecidedFinds, WhatWasLookedForInSomePingsIsNotAllThatIsThere) {
   EXPECT_EQ(document().as_made(1), nullptr);
 }
 
-TEST_F(DecidedFinds, MasksThatWereKeptMayBeOthersThanWhatIsFound) {
-  say_species(0);
+// Every figure of them is another than the run before had, and than detection would give.
+TEST_F(DecidedFinds, MasksThatWereKeptAreShownAsTheyWereMeasuredAnew) {
+  run();
+  recipe_.calibration.psi = PsiSource::from_widths;
+  run({}, true);
+  open(out_, "test");
+  for (const std::size_t observation : {0U, 1U}) {
+    ASSERT_TRUE(document().as_made(observation));
+    EXPECT_EQ(voxels(observation), made_voxels(observation));
+    const ObservationProduct anew = kept(observation);
+    EXPECT_NE(backscatter_m2(anew), backscatter_m2(made_[observation]));
+    ASSERT_TRUE(document().product(observation));
+    EXPECT_EQ(backscatter_m2(*document().product(observation)), backscatter_m2(anew));
+  }
+  EXPECT_THAT(document().notices(), Contains(HasSubstr("as the run left them")));
+}
+
+TEST_F(DecidedFinds, MasksThatWereKeptAndShapedByHandAreCarriedOutOnTheFindOfThatRun) {
+  paint_in(0);
+  run();
+  recipe_.calibration.psi = PsiSource::from_widths;
+  run({}, true);
+  open(out_, "test");
+  ASSERT_TRUE(document().as_made(0));
+  EXPECT_EQ(voxels(0), made_voxels(0));
+  ASSERT_TRUE(document().product(0));
+  EXPECT_EQ(voxels_of(*document().product(0)), voxels_of(kept(0)));
+  const std::vector<double> shown = backscatter_m2(*document().product(0));
+  const std::vector<double> anew = backscatter_m2(kept(0));
+  ASSERT_EQ(shown.size(), anew.size());
+  for (std::size_t i = 0; i < shown.size(); ++i) EXPECT_NEAR(shown[i], anew[i], 1e-9 * anew[i]);
+}
+
+TEST_F(DecidedFinds, MasksThatWereKeptAndShapedByHandAreNoFind) {
+  paint_in(0);
   run();
   run({}, true);
   fs::remove_all(out_ / "found");
-  open(out_, "another");
+  fs::remove(session_);
+  say_species(1);
+  open(out_, "test");
   EXPECT_EQ(document().as_made(0), nullptr);
-  EXPECT_EQ(document().as_made(1), nullptr);
+  EXPECT_TRUE(document().as_made(1));
 }
 
 TEST_F(DecidedFinds, ARejectedSchoolStaysRejected) {

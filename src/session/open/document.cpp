@@ -16,7 +16,7 @@
 #include "pipeline/journal/manual.h"
 #include "pipeline/journal/session_recipe.h"
 #include "pipeline/journal/taken_lines.h"
-#include "pipeline/tasks/decided_finds.h"
+#include "pipeline/tasks/other_finds.h"
 #include "pipeline/tasks/work_folders.h"
 
 namespace sonar {
@@ -58,22 +58,6 @@ std::set<std::size_t> found_in(const std::vector<std::filesystem::path>& work_fo
     if (has[i] != 0) found.insert(i);
   }
   return found;
-}
-
-/// What other versions found in the rest, and runs that were given decisions.
-std::map<std::size_t, OtherFind> found_by_others(const std::vector<std::filesystem::path>& work_folders,
-                                                 const SurveyFiles& survey, const Recipe& recipe,
-                                                 const std::string& program_version, std::set<std::size_t> found) {
-  std::map<std::size_t, OtherFind> others;
-  for (std::size_t i = 0; i < survey.observations.size() && !work_folders.empty(); ++i) {
-    if (found.contains(i)) continue;
-    auto other = find_of_another_version(work_folders, survey.observations[i], recipe, program_version);
-    if (!other) continue;
-    others.emplace(i, std::move(*other));
-    found.insert(i);
-  }
-  others.merge(finds_of_decided_runs(work_folders, survey, recipe, found));
-  return others;
 }
 
 /// Whether the folder is here that raw files lay in. An empty one may be where a disk is mounted: what is written there is
@@ -207,7 +191,7 @@ void Document::read(Opening what) {
                            : all_with_grid(*files);
     if (work.cancelled()) return end_with(Error{ErrorCode::cancelled, "stopped on request", {}}, token, opening);
     auto others = files->raw_gone.empty()
-                      ? found_by_others(named->work_folders, *files, recipe, options_.program_version, found)
+                      ? other_finds(named->work_folders, *files, recipe, options_.program_version, found)
                       : std::map<std::size_t, OtherFind>{};
     post(token, [this, asked, opening,
                  read = SurveyRead{recipe, files, opening->paths, raw_of(*named), named->work_folders, found,

@@ -22,7 +22,7 @@
 #include "pipeline/recipe/recipe.h"
 #include "pipeline/survey/survey.h"
 #include "pipeline/tasks/survey_numbers.h"
-#include "pipeline/tasks/work_folders.h"
+#include "pipeline/tasks/other_finds.h"
 #include "session/change_queue.h"
 #include "session/looks/choices.h"
 #include "session/open/open_observation.h"
@@ -58,7 +58,7 @@ struct SurveyRead {
   std::vector<std::filesystem::path> paths{};         ///< the raw files of those, and folders of them
   std::vector<std::filesystem::path> work_folders{};  ///< of runs, in which schools were found before
   std::set<std::size_t> found{};              ///< observations whose schools those have as detect() would find them
-  std::map<std::size_t, OtherFind> others{};  ///< observations whose schools those have of another version
+  std::map<std::size_t, OtherFind> others{};  ///< observations whose schools they have
   Result<JournalPlace> place = JournalPlace{};
   /// [observation] of results whose raw files are not here (SurveyFiles::raw_gone); empty = pings can be read.
   std::vector<ProductPtr> products{};
@@ -96,7 +96,7 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
   void stop_propagation();
   [[nodiscard]] const JournalState& state(std::size_t observation) const;
   [[nodiscard]] bool busy() const { return choices_thread_ && choices_thread_->busy(); }
-  /// as_made  shows what another version found as it is
+  /// as_made  shows what runs made as it is
   void detect(std::vector<std::size_t> observations, bool as_made = false);
   void take_schools(std::size_t observation, const ObservationProduct& found);
   [[nodiscard]] bool detected(std::size_t observation) const;
@@ -121,7 +121,7 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
     std::vector<RefusedEcho> refused;
     std::shared_ptr<const EarlierSchools> earlier;  ///< see earlier_found()
     EventsPtr events;
-    ProductPtr as_made;  ///< by another version; null = by this one
+    ProductPtr as_made;  ///< see OtherFind; null = by this version under this recipe
   };
   /// schools  detected_schools() or decided_schools() of it
   [[nodiscard]] static Found found_in(const ObservationProduct& product, std::vector<SchoolMasks> schools,
@@ -150,7 +150,7 @@ class OpenSurvey : public std::enable_shared_from_this<OpenSurvey> {
     std::optional<std::vector<RefusedEcho>> found_refused;  ///< as detection told them; none = it was not looked for
     RefusedPtr refused;                                     ///< those of them that are no school now
     EventsPtr found_events;                                 ///< as detection noted them; null = it was not looked for
-    ProductPtr as_made;  ///< what another version found there, which is shown; null = this one's find
+    ProductPtr as_made;  ///< what a run made, which is shown as it is; null = this version's find
   };
 
   void tell(DocumentChange change);

@@ -74,7 +74,7 @@ void OpenSurvey::tell_as_made(const std::vector<std::size_t>& observations) {
   const std::string shown = fmt::format("{}: the schools of {} are shown as ", read_.work_folders.front().string(),
                                         count_of(count, "observation"));
   if (versions == std::set{document_.options().program_version}) {
-    return tell(shown + "a run with decisions left them; [schools.detect_all] detects them anew");
+    return tell(shown + "the run left them; [schools.detect_all] detects them anew");
   }
   tell(fmt::format("{}version {} made them; [schools.detect_all] detects them by this version", shown,
                    fmt::join(versions, ", ")));

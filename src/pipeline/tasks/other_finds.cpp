@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Schools that other runs found, as far as their masks are what was found.
-#include "pipeline/tasks/decided_finds.h"
+#include "pipeline/tasks/other_finds.h"
 
 #include <algorithm>
 #include <memory>
@@ -14,6 +13,7 @@
 #include "pipeline/commands/command.h"
 #include "pipeline/journal/journals.h"
 #include "pipeline/stages/observe.h"
+#include "pipeline/tasks/kept_find.h"
 #include "pipeline/tasks/plan.h"
 #include "pipeline/tasks/run.h"
 
@@ -44,11 +44,9 @@ Result<Plan> plan_of(const fs::path& folder) {
   return fs::is_regular_file(plan, absent) ? read_plan(plan) : Result<Plan>(fail(ErrorCode::not_found, ""));
 }
 
-/// Whether schools were looked for in every ping, by the recipe that the product tells: `--pings` looks in some, and
-/// `--remeasure` keeps the masks of a run before, which its key shows.
+/// Whether schools were looked for in every ping: `--pings` looks in some.
 bool whole_find(const ObservationProduct& product) {
-  return product.input_hash.find('-') == std::string::npos &&
-         std::ranges::none_of(product.diagnostics,
+  return std::ranges::none_of(product.diagnostics,
                               [](const Diagnostic& note) { return note.code == DiagnosticCode::pings_left_out; });
 }
 
@@ -67,13 +65,6 @@ std::optional<ObservationProduct> product_of(const fs::path& file, const Observa
 OtherFind find_in(const fs::path& file, ObservationProduct product) {
   product.background_db = {};
   return {file, std::make_shared<const ObservationProduct>(std::move(product))};
-}
-
-/// The file with what a run found by itself; empty where it holds decisions. With the extinction correction, figures hang on
-/// which of the ping's schools are rejected: those of the find then are none of any decided state.
-fs::path file_of_find(const fs::path& folder, const Plan& plan, const std::string& observation, const Recipe& recipe) {
-  if (plan.session.empty()) return product_path(folder, observation);
-  return recipe.measure.extinction.correct ? fs::path() : found_path(folder, observation);
 }
 
 /// Under another calibration, masks stay, but the product tells it as its recipe's.
@@ -108,46 +99,55 @@ bool meet(const std::vector<TimeSpan>& spans, const SurveyFiles& survey, const O
   });
 }
 
-/// Another journal may lie where the run's lay.
+/// Another journal may lie where the run's lay; masks that were kept may have been a run's that had one.
 bool shaped_by_hand(const SchoolRow& school) { return school.origin != "automatic" || school.status == "corrected"; }
+
+/// Without decisions.
+std::optional<OtherFind> found_alone(const fs::path& file, const ObservationFiles& observation, const Recipe& recipe,
+                                     const std::string& version) {
+  auto product = product_of(file, observation, recipe);
+  if (!product) return std::nullopt;
+  const bool of_now = product->program_version == version && product->stage_versions == kStageVersions;
+  const bool other = is_remeasured(*product) ? std::ranges::none_of(product->schools, shaped_by_hand) : !of_now;
+  return other ? std::optional(find_in(file, std::move(*product))) : std::nullopt;
+}
+
+/// With decisions that changed no mask.
+std::optional<OtherFind> decided(const fs::path& file, const ObservationFiles& observation, const Recipe& recipe) {
+  auto product = product_of(file, observation, recipe);
+  if (!product || std::ranges::any_of(product->schools, shaped_by_hand)) return std::nullopt;
+  // Figures then hang on which of the ping's schools are rejected: another word on one would leave the others' as they were.
+  const auto rejected = [](const SchoolRow& school) { return school.status == "rejected"; };
+  if (recipe.measure.extinction.correct && std::ranges::any_of(product->schools, rejected)) return std::nullopt;
+  // What was lost of the decisions is told where they are carried out here.
+  std::erase_if(product->diagnostics, [](const Diagnostic& note) {
+    return note.code == DiagnosticCode::decision_lost || note.code == DiagnosticCode::decision_carried;
+  });
+  return find_in(file, std::move(*product));
+}
 
 }  // namespace
 
-std::optional<OtherFind> find_of_another_version(std::span<const fs::path> work_folders,
-                                                 const ObservationFiles& observation, const Recipe& recipe,
-                                                 const std::string& version) {
-  for (const fs::path& folder : work_folders) {
-    const auto plan = plan_of(folder);
-    if (!plan) continue;
-    const fs::path file = file_of_find(folder, *plan, observation.name, recipe);
-    auto product = product_of(file, observation, recipe);
-    if (!product || (product->program_version == version && product->stage_versions == kStageVersions)) continue;
-    return find_in(file, std::move(*product));
-  }
-  return std::nullopt;
-}
-
-std::map<std::size_t, OtherFind> finds_of_decided_runs(std::span<const fs::path> work_folders,
-                                                       const SurveyFiles& survey, const Recipe& recipe,
-                                                       const std::set<std::size_t>& known) {
+std::map<std::size_t, OtherFind> other_finds(std::span<const fs::path> work_folders, const SurveyFiles& survey,
+                                             const Recipe& recipe, const std::string& version,
+                                             const std::set<std::size_t>& known) {
   std::map<std::size_t, OtherFind> finds;
   for (const fs::path& folder : work_folders) {
     const auto plan = plan_of(folder);
-    const auto changed = plan && !plan->session.empty() ? mask_changes(plan->session) : std::nullopt;
-    for (std::size_t i = 0; changed && i < survey.observations.size(); ++i) {
+    if (!plan) continue;
+    const bool has_decisions = !plan->session.empty();
+    const auto changed = has_decisions ? mask_changes(plan->session) : std::nullopt;
+    for (std::size_t i = 0; i < survey.observations.size(); ++i) {
+      if (known.contains(i) || finds.contains(i)) continue;
       const ObservationFiles& observation = survey.observations[i];
-      if (known.contains(i) || finds.contains(i) || meet(*changed, survey, observation)) continue;
-      const fs::path file = product_path(folder, observation.name);
-      auto product = product_of(file, observation, recipe);
-      if (!product || std::ranges::any_of(product->schools, shaped_by_hand)) continue;
-      // Figures then hang on which of the ping's schools are rejected: another word on one would leave the others' as they were.
-      const auto rejected = [](const SchoolRow& school) { return school.status == "rejected"; };
-      if (recipe.measure.extinction.correct && std::ranges::any_of(product->schools, rejected)) continue;
-      // What was lost of the decisions is told where they are carried out here.
-      std::erase_if(product->diagnostics, [](const Diagnostic& note) {
-        return note.code == DiagnosticCode::decision_lost || note.code == DiagnosticCode::decision_carried;
-      });
-      finds.emplace(i, find_in(file, std::move(*product)));
+      const fs::path product = product_path(folder, observation.name);
+      const fs::path alone = has_decisions ? found_path(folder, observation.name) : product;
+      // With the extinction correction, figures hang on which of the ping's schools are rejected: those of the find then
+      // are none of any decided state.
+      const bool may_be_alone = !has_decisions || !recipe.measure.extinction.correct;
+      auto find = may_be_alone ? found_alone(alone, observation, recipe, version) : std::nullopt;
+      if (!find && changed && !meet(*changed, survey, observation)) find = decided(product, observation, recipe);
+      if (find) finds.emplace(i, std::move(*find));
     }
   }
   return finds;
