@@ -9,6 +9,7 @@ import socket
 import subprocess
 import time
 
+import propagate_test
 import sonarx
 from sonarx import OUT, PROGRAM, SURVEY, WORK, Case, run
 
@@ -139,6 +140,25 @@ class Follow(Case):
             self.assertIn(code, (130, -signal.SIGINT), err)
             if code == 130:
                 self.assertEqual(len(list((out / "products").iterdir())), 2, wait_s)
+
+    def test_with_decisions_it_keeps_what_was_found_as_a_run_does(self):
+        """A window that opens the results carries the decisions out on that."""
+        folder = self.fresh("follow-decided")
+        clicked, live, out, ran = (folder / name for name in ("clicked", "live", "out", "ran"))
+        self.sonarx("propagate", SURVEY, "--observation", "obs-0001", "--seed", propagate_test.seed()[0], "--reach", 1, "--out", clicked)
+        recipe = folder / "r.json"
+        recipe.write_text('{"recipe_version": 1, "automatic": true}')
+        session = ["--session", clicked / "session.jsonl", "--recipe", recipe]
+        self.sonarx("run", SURVEY, "--out", ran, *session)
+        shutil.copytree(SURVEY, live, ignore=shutil.ignore_patterns("truth"), copy_function=shutil.copyfile)
+        self.start(live, out, "--idle-exit", 1, *session)
+        self.assertEqual(self.end()[0], 0)
+        found = sorted(file.name for file in (ran / "found").iterdir())
+        self.assertEqual(found, ["obs-0001.nc"])
+        self.assertEqual(sorted(file.name for file in (out / "found").iterdir()), found)
+        self.assertNotEqual((ran / "products/obs-0001.nc").read_bytes(), (ran / "found/obs-0001.nc").read_bytes())
+        for name in ("products/obs-0001.nc", "products/obs-0002.nc", "found/obs-0001.nc"):
+            self.assertEqual((out / name).read_bytes(), (ran / name).read_bytes(), name)
 
     def test_nothing_is_written_beside_the_recording(self):
         folder = self.fresh("follow-clean")

