@@ -109,8 +109,9 @@ Result<ObservationProduct> Follow::observed(const ObservationFiles& observation,
     earlier = numbers_of(*at_work.product);
   }
   if (earlier) options.earlier = &*earlier;
-  if (const auto finding = over ? recipe_of_find(*survey, observation, recipe_, journal_) : std::nullopt) {
-    if (auto kept = keep_find(*survey, observation, *finding, options, options_.out, work); !kept) return pass_on(kept);
+  if (over) {
+    const auto finding = recipe_of_find(*survey, observation, recipe_, journal_);
+    if (auto kept = keep_find(*survey, observation, finding, options, options_.out, work); !kept) return pass_on(kept);
   }
   return observe(*survey, observation, recipe_, options, work);
 }

@@ -330,6 +330,7 @@ Result<ObservationProduct> remeasure(const SurveyFiles& survey, const Observatio
   if (!observation.grid) return product;
   Engine engine(survey, observation, recipe);
   const PingReach reach = selected(observation, options);
+  note_pings_left_out(reach, product);
   if (auto done = prepare(engine, reach, product, work); !done) return pass_on(done);
   std::vector<SchoolMasks> schools;
   for (const SchoolRow& row : before.schools) {

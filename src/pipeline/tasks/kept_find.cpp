@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <system_error>
 #include <variant>
 #include <vector>
@@ -28,6 +29,16 @@ bool decides(const ReadJournal& journal, const std::vector<TimeNs>& times) {
   });
 }
 
+void forget_find(const std::filesystem::path& file) {
+  if (!require_own_folder(file.parent_path())) return;
+  std::error_code absent;
+  std::filesystem::remove(file, absent);
+  std::filesystem::remove(file.parent_path(), absent);  // if that was the last
+}
+
+/// Between the key of a plan and that of masks.
+constexpr char kMasksKept = '-';
+
 }  // namespace
 
 std::optional<Recipe> recipe_of_find(const SurveyFiles& survey, const ObservationFiles& observation, Recipe recipe,
@@ -38,13 +49,18 @@ std::optional<Recipe> recipe_of_find(const SurveyFiles& survey, const Observatio
   return recipe;
 }
 
-Result<void> keep_find(const SurveyFiles& survey, const ObservationFiles& observation, const Recipe& recipe,
-                       ObserveOptions options, const std::filesystem::path& out, Work& work) {
-  options.journal = {};
+Result<void> keep_find(const SurveyFiles& survey, const ObservationFiles& observation,
+                       const std::optional<Recipe>& recipe, ObserveOptions options, const std::filesystem::path& out,
+                       Work& work) {
   const std::filesystem::path file = found_path(out, observation.name);
+  if (!recipe) {
+    forget_find(file);
+    return {};
+  }
+  options.journal = {};
   const auto there = read_product_key(file);
-  if (there && there->input_hash == observation_key(survey, observation, recipe, options)) return {};
-  const auto found = observe(survey, observation, recipe, options, work);
+  if (there && there->input_hash == observation_key(survey, observation, *recipe, options)) return {};
+  const auto found = observe(survey, observation, *recipe, options, work);
   if (!found) return pass_on(found);
   return write_product(*found, file, Beside::own_folder);
 }
@@ -57,20 +73,13 @@ Result<void> remeasure_find(const SurveyFiles& survey, const ObservationFiles& o
   if (!before || !has_pings(*before, source_of(observation), datagram_times(survey, observation))) return {};
   Recipe looked = recipe;
   looked.automatic = true;
-  const std::string key = remeasured_key(observation_key(survey, observation, looked, options), *before);
-  if (before->input_hash == key) return {};
+  const std::string found = observation_key(survey, observation, looked, options);
+  const std::string key = remeasured_key(found, *before);
+  if (before->input_hash == found || before->input_hash == key) return {};
   auto made = remeasure(survey, observation, *before, looked, options, work);
   if (!made) return pass_on(made);
   made->input_hash = key;
   return write_product(*made, file, Beside::own_folder);
-}
-
-void forget_find(const std::filesystem::path& out, const ObservationFiles& observation) {
-  const std::filesystem::path file = found_path(out, observation.name);
-  if (!require_own_folder(file.parent_path())) return;
-  std::error_code absent;
-  std::filesystem::remove(file, absent);
-  std::filesystem::remove(file.parent_path(), absent);  // if that was the last
 }
 
 std::string remeasured_key(const std::string& key, const ObservationProduct& before) {
@@ -80,9 +89,11 @@ std::string remeasured_key(const std::string& key, const ObservationProduct& bef
     hasher.add(std::as_bytes(std::span(mask.mask.runs)));
     hasher.add(std::as_bytes(std::span(mask.mask.confidence)));
   }
-  return key + "-" + to_hex(hasher.value());
+  return key + kMasksKept + to_hex(hasher.value());
 }
 
-bool is_remeasured(const ObservationProduct& product) { return product.input_hash.find('-') != std::string::npos; }
+bool is_remeasured(const ObservationProduct& product) {
+  return product.input_hash.find(kMasksKept) != std::string::npos;
+}
 
 }  // namespace sonar

@@ -99,23 +99,37 @@ bool meet(const std::vector<TimeSpan>& spans, const SurveyFiles& survey, const O
   });
 }
 
-/// Another journal may lie where the run's lay; masks that were kept may have been a run's that had one.
+/// Another journal may lie where the run's lay.
 bool shaped_by_hand(const SchoolRow& school) { return school.origin != "automatic" || school.status == "corrected"; }
+
+bool decided_on(const SchoolRow& school) {
+  return shaped_by_hand(school) || school.status != "unreviewed" || !school.species.empty() || !school.comment.empty();
+}
+
+/// Whether a product's masks are those of a run before that may have had another journal: some have decisions, or they lie
+/// beside what was found without them (a school that was deleted leaves nothing else).
+/// find  where a run keeps what it found beside a product that holds decisions
+bool keeps_decided_masks(const ObservationProduct& product, const fs::path& find) {
+  std::error_code absent;
+  return is_remeasured(product) && (fs::exists(find, absent) || std::ranges::any_of(product.schools, decided_on));
+}
 
 /// Without decisions.
 std::optional<OtherFind> found_alone(const fs::path& file, const ObservationFiles& observation, const Recipe& recipe,
-                                     const std::string& version) {
+                                     const std::string& version, const fs::path& find) {
   auto product = product_of(file, observation, recipe);
-  if (!product) return std::nullopt;
+  if (!product || (file != find && keeps_decided_masks(*product, find))) return std::nullopt;
   const bool of_now = product->program_version == version && product->stage_versions == kStageVersions;
-  const bool other = is_remeasured(*product) ? std::ranges::none_of(product->schools, shaped_by_hand) : !of_now;
-  return other ? std::optional(find_in(file, std::move(*product))) : std::nullopt;
+  return of_now && !is_remeasured(*product) ? std::nullopt : std::optional(find_in(file, std::move(*product)));
 }
 
 /// With decisions that changed no mask.
-std::optional<OtherFind> decided(const fs::path& file, const ObservationFiles& observation, const Recipe& recipe) {
+std::optional<OtherFind> decided(const fs::path& file, const ObservationFiles& observation, const Recipe& recipe,
+                                 const fs::path& find) {
   auto product = product_of(file, observation, recipe);
-  if (!product || std::ranges::any_of(product->schools, shaped_by_hand)) return std::nullopt;
+  if (!product || keeps_decided_masks(*product, find) || std::ranges::any_of(product->schools, shaped_by_hand)) {
+    return std::nullopt;
+  }
   // Figures then hang on which of the ping's schools are rejected: another word on one would leave the others' as they were.
   const auto rejected = [](const SchoolRow& school) { return school.status == "rejected"; };
   if (recipe.measure.extinction.correct && std::ranges::any_of(product->schools, rejected)) return std::nullopt;
@@ -141,12 +155,13 @@ std::map<std::size_t, OtherFind> other_finds(std::span<const fs::path> work_fold
       if (known.contains(i) || finds.contains(i)) continue;
       const ObservationFiles& observation = survey.observations[i];
       const fs::path product = product_path(folder, observation.name);
-      const fs::path alone = has_decisions ? found_path(folder, observation.name) : product;
+      const fs::path kept = found_path(folder, observation.name);
       // With the extinction correction, figures hang on which of the ping's schools are rejected: those of the find then
       // are none of any decided state.
       const bool may_be_alone = !has_decisions || !recipe.measure.extinction.correct;
-      auto find = may_be_alone ? found_alone(alone, observation, recipe, version) : std::nullopt;
-      if (!find && changed && !meet(*changed, survey, observation)) find = decided(product, observation, recipe);
+      auto find =
+          may_be_alone ? found_alone(has_decisions ? kept : product, observation, recipe, version, kept) : std::nullopt;
+      if (!find && changed && !meet(*changed, survey, observation)) find = decided(product, observation, recipe, kept);
       if (find) finds.emplace(i, std::move(*find));
     }
   }

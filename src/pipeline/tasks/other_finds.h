@@ -22,7 +22,8 @@ struct OtherFind {
 };
 
 /// By observation, from the same pings on the same grid under the same recipe, so that masks lie where they lay:
-/// - what another version found, or what `--remeasure` measured anew, without decisions;
+/// - what another version found, or what `--remeasure` measured anew, without decisions; in the first folder that has either
+///   this or the following;
 /// - a product with decisions, where the run's journal has no line, not even one that was taken back, that could have
 ///   changed a mask. A journal that is gone, or that has broken lines, says nothing of that.
 /// version  this one's

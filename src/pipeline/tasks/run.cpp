@@ -69,17 +69,13 @@ Result<std::optional<ObservationProduct>> make_product(const SurveyFiles& survey
     const auto numbers = earlier.schools_of(source_of(observation), datagram_times(survey, observation));
     if (numbers) options.earlier = &*numbers;
     ObserveMemory memory;  // what is known of the find by then is not worked out again
-    if (const auto finding = recipe_of_find(survey, observation, recipe, options.journal)) {
-      options.memory = &memory;
-      if (auto kept = keep_find(survey, observation, *finding, options, run.out, work); !kept) return pass_on(kept);
-    } else {
-      forget_find(run.out, observation);
-    }
+    const auto finding = recipe_of_find(survey, observation, recipe, options.journal);
+    if (finding) options.memory = &memory;
+    if (auto kept = keep_find(survey, observation, finding, options, run.out, work); !kept) return pass_on(kept);
     auto made = observe(survey, observation, recipe, options, work);
     if (!made) return pass_on(made);
     return std::optional<ObservationProduct>{std::move(*made)};
   }
-  if (auto found = remeasure_find(survey, observation, recipe, options, run.out, work); !found) return pass_on(found);
   const auto before = product_before(survey, observation, path, earlier);
   if (!before) return pass_on(before);
   const std::string kept_key = remeasured_key(key, *before);
@@ -87,6 +83,7 @@ Result<std::optional<ObservationProduct>> make_product(const SurveyFiles& survey
   auto made = remeasure(survey, observation, *before, recipe, options, work);
   if (!made) return pass_on(made);
   made->input_hash = kept_key;
+  if (auto found = remeasure_find(survey, observation, recipe, options, run.out, work); !found) return pass_on(found);
   return std::optional<ObservationProduct>{std::move(*made)};
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -10,7 +9,6 @@
 #include <vector>
 
 #include "base/result.h"
-#include "model/product.h"
 #include "pipeline/recipe/recipe.h"
 #include "pipeline/survey/survey.h"
 

@@ -206,7 +206,7 @@ TEST_F(DecidedFinds, OfThisVersionTooAreNotDetectedAgain) {
   EXPECT_EQ(species(0), "herring");
 }
 
-// As `follow` leaves them.
+// As a version before left them that kept no finds.
 TEST_F(DecidedFinds, OfThisVersionAreNotDetectedAgainWhereNoFindWasKept) {
   say_species(0);
   run();
@@ -301,18 +301,29 @@ TEST_F(DecidedFinds, MasksThatWereKeptAndShapedByHandAreCarriedOutOnTheFindOfTha
   const std::vector<double> anew = backscatter_m2(kept(0));
   ASSERT_EQ(shown.size(), anew.size());
   for (std::size_t i = 0; i < shown.size(); ++i) EXPECT_NEAR(shown[i], anew[i], 1e-9 * anew[i]);
+  EXPECT_TRUE(document().as_made(1)) << "of this one nothing was decided";
 }
 
-TEST_F(DecidedFinds, MasksThatWereKeptAndShapedByHandAreNoFind) {
+// Which decisions they hold, such a run does not tell: it was given none.
+TEST_F(DecidedFinds, MasksThatWereKeptWithDecisionsAreNoFind) {
   paint_in(0);
+  reject(0);
   run();
-  run({}, true);
-  fs::remove_all(out_ / "found");
   fs::remove(session_);
-  say_species(1);
+  run({}, true);
   open(out_, "test");
   EXPECT_EQ(document().as_made(0), nullptr);
-  EXPECT_TRUE(document().as_made(1));
+  EXPECT_TRUE(document().as_made(1)) << "of this one nothing was decided";
+  fs::remove_all(out_ / "found");
+  open(out_, "test");
+  EXPECT_EQ(document().as_made(0), nullptr) << "its schools show it";
+}
+
+TEST_F(DecidedFinds, MasksThatWereMeasuredInSomePingsAreNotShown) {
+  run();
+  run(PingSelection{0, 1}, true);
+  open(out_, "test");
+  EXPECT_EQ(document().as_made(0), nullptr);
 }
 
 TEST_F(DecidedFinds, ARejectedSchoolStaysRejected) {
