@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "session/maps/masked_pings.h"
+#include "session/maps/strip_panels.h"
 #include "session/maps/test_maps.h"
 
 namespace sonar {
@@ -234,6 +235,17 @@ TEST(StripModel, ShowsThePingsRoundTheOneOnShowAndAClickGoesToOne) {
   maps.workspace.document.look_at(0);
   maps.settle();
   EXPECT_EQ(maps.strip.first(), 0);
+}
+
+TEST(StripModel, SaysNoSchoolOnlyWhereSchoolsWereLookedFor) {
+  TestMaps maps;
+  StripWish wish;
+  wish.observation = maps.workspace.document.shown();
+  wish.panes = 3;
+  for (const bool searched : {false, true}) {
+    wish.searched = searched;
+    for (const PropagationPanel& panel : strip_panels(wish, {})) EXPECT_EQ(panel.searched, searched);
+  }
 }
 
 // As it is in a window that was drawn together to the height of a small laptop.

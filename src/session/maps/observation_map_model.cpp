@@ -128,6 +128,7 @@ LivePicture::Build ObservationMapModel::build(const PictureLook& look) {
   if (workspace_.school() && workspace_.school()->observation == index) wish.selected = workspace_.school()->number;
   const DisplayParams& display = workspace_.display.values();
   wish.rejected = display.rejected;
+  wish.searched = document.detected(index);
   wish.refused = refused_layer(workspace_, index);
   wish.chosen_echo = chosen_echo(workspace_, index);
   wish.palette.core_at = display.core_at;

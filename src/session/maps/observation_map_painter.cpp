@@ -43,6 +43,7 @@ Result<void> ObservationMapPainter::lay_out(const ObservationMapWish& wish, Pixe
 
 Result<ObservationMapPainter::Painted> ObservationMapPainter::paint(const ObservationMapWish& wish, PixelSize size) {
   if (auto done = lay_out(wish, size); !done) return pass_on(done);
+  base_->searched = wish.searched;
   auto places = std::make_shared<ObservationMapPlaces>();
   MaskedPings masks = masked_pings(wish.state, wish.running, wish.rejected, wish.carried);
   if (wish.state) {

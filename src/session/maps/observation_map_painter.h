@@ -20,7 +20,8 @@ struct ObservationMapWish {
   std::int64_t ping = 0;
   std::int64_t selected = 0;  ///< school number; 0 = none
   bool rejected = true;
-  RefusedPtr refused;  ///< that are marked; never null
+  bool searched = false;  ///< schools were looked for; else that there is none says nothing
+  RefusedPtr refused;     ///< that are marked; never null
   std::int64_t chosen_echo = 0;
   MaskPalette palette;
   PictureLook look;

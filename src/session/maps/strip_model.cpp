@@ -114,6 +114,7 @@ LivePicture::Build StripModel::build(const PictureLook& look) {
   if (workspace_.school() && workspace_.school()->observation == index) wish.selected = workspace_.school()->number;
   const DisplayParams& display = workspace_.display.values();
   wish.rejected = display.rejected;
+  wish.searched = document.detected(index);
   wish.style.aspect = aspect_;
   wish.style.one_row = true;
   wish.style.palette = {.colouring = MaskColouring::schools,

@@ -47,6 +47,7 @@ std::vector<PropagationPanel> strip_panels(const StripWish& wish, const MaskedPi
     PropagationPanel& panel = panels.emplace_back();
     panel.ping_index = ping;
     panel.current = ping == wish.ping;
+    panel.searched = wish.searched;
     const auto i = static_cast<std::size_t>(ping);
     const PingNavigation& navigation = wish.observation->files().navigation[i];
     panel.time = navigation.time;

@@ -21,6 +21,7 @@ struct StripWish {
   std::int64_t ping = 0;
   std::int64_t selected = 0;  ///< school number; 0 = none
   bool rejected = true;
+  bool searched = false;  ///< schools were looked for; else that there is none says nothing
   PropagationStyle style;
   PictureLook look;
 };
