@@ -66,16 +66,17 @@ bool LabelRoom::crossed(const PixelRect& box) const {
 std::optional<TextItem> LabelRoom::place_nearest(const TextItem& label) {
   // Slid towards its anchor, a free box ends there, at a side of what is taken, or at one of the picture.
   const PixelRect box = box_of(label);
-  std::vector<double> left{box.x, inside_.x, inside_.x + inside_.width - box.width};
-  std::vector<double> top{box.y, inside_.y, inside_.y + inside_.height - box.height};
+  constexpr double kApart_px = 1e-6;  // what touches shares no rounded edge
+  std::vector<double> left{box.x, inside_.x, inside_.x + inside_.width - box.width - kApart_px};
+  std::vector<double> top{box.y, inside_.y, inside_.y + inside_.height - box.height - kApart_px};
   for (const PixelRect& t : taken_) {
-    constexpr double kApart_px = 1e-6;
     left.insert(left.end(), {t.x - box.width - kApart_px, t.x + t.width + kApart_px});
     top.insert(top.end(), {t.y - box.height - kApart_px, t.y + t.height + kApart_px});
   }
   std::optional<TextItem> nearest;
   double least_px = std::numeric_limits<double>::infinity();
   for (const double x : left) {
+    if (std::abs(x - box.x) >= least_px) continue;
     for (const double y : top) {
       const double away_px = std::hypot(x - box.x, y - box.y);
       if (away_px >= least_px || !free({x, y, box.width, box.height})) continue;

@@ -25,7 +25,8 @@ class LabelRoom {
   /// on_lines  false: rather none than one that crosses a line
   [[nodiscard]] std::optional<TextItem> place(TextItem label, std::span<const PixelPoint> places, bool on_lines = true);
 
-  /// The label where it lies inside and on no label, as near to its anchor as that is: it finds the last free place.
+  /// The label where it lies inside and on no label, as near to its anchor as that is, whatever line it crosses: it
+  /// finds the last free place.
   [[nodiscard]] std::optional<TextItem> place_nearest(const TextItem& label);
   /// The label as near to its anchor as it lies inside, whatever it lies on; its room is taken.
   [[nodiscard]] TextItem force(TextItem label);

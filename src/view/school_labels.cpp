@@ -48,7 +48,8 @@ void add_leader(FrameDescription& frame, LabelRoom& room, const PixelRect& numbe
                 const Theme& theme) {
   const PixelPoint end = edge_towards(number, place.at);
   const double length = std::hypot(end.x - place.at.x, end.y - place.at.y);
-  const double part = length > 0.0 ? std::min(1.0, place.radius_px / length) : 0.0;
+  if (length <= place.radius_px) return;
+  const double part = place.radius_px / length;
   const PixelPoint from{place.at.x + part * (end.x - place.at.x), place.at.y + part * (end.y - place.at.y)};
   for (const auto& [colour, width] : {std::pair(theme.halo, 2.6), std::pair(theme.text, 0.9)}) {
     frame.items.emplace_back(line_item(from, end, colour, width * theme.line_px));
@@ -100,12 +101,15 @@ void add_selected_name(FrameDescription& frame, LabelRoom& room, TextItem name, 
   if (!placed) placed = placed_about(frame, beside, name, place, theme, 1);
   if (!placed) {
     placed = beside.place_nearest(name);
-    if (placed) add_leader(frame, room, LabelRoom::box_of(*placed), place, theme);
+    if (placed) add_leader(frame, beside, LabelRoom::box_of(*placed), place, theme);
   }
-  if (!placed) placed = room.place_nearest(name);  // on the school: it fills the picture
+  if (placed) {
+    room = std::move(beside);
+  } else {
+    placed = room.place_nearest(name);  // on the school: it fills the picture
+    room.take(seen);
+  }
   frame.items.emplace_back(placed ? *placed : room.force(name));
-  room.take(seen);
-  if (placed) room.take(LabelRoom::box_of(*placed));
 }
 
 std::string named_text(std::int64_t number, const std::string& name, const Theme& theme) {
