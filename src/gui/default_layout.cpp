@@ -74,34 +74,46 @@ void lay_out_small(QMainWindow& window) {
 
 /// Beside the views: tree and notes, and the controls.
 struct Sides {
-  QDockWidget* tree;
-  QDockWidget* notes;
-  QDockWidget* controls;
-  int tree_px;
-  int controls_px;
-  bool one_column;  ///< where the views cannot spare two, the controls stand under tree and notes
-
-  explicit Sides(QMainWindow& window)
-      : tree(put(window, Qt::LeftDockWidgetArea, "survey_tree")),
-        notes(put(window, Qt::LeftDockWidgetArea, "diagnostics")),
-        // The tree's name, time, pings and schools are seen where the views can spare the room; what is left in wide
-        // windows is theirs.
-        tree_px(std::min(kWholeTree_px, window.width() * 22 / 100)),
-        controls_px(std::min(kWholeControls_px, window.width() / 5)),
-        one_column(window.width() - tree_px - controls_px < 2 * kLeastView_px) {
-    controls = put(window, one_column ? Qt::LeftDockWidgetArea : Qt::RightDockWidgetArea, "controls");
-  }
-  void stack(QMainWindow& window) const {
-    if (one_column) behind(window, tree, {"diagnostics", "journal"});
-    if (!one_column) behind(window, notes, {"journal"});
-  }
-  [[nodiscard]] int width_px() const { return one_column ? kWholeControls_px : tree_px + controls_px; }
-  void share_height(QMainWindow& window) const {
-    const int third = window.height() / 3;
-    if (one_column) share(window, Qt::Vertical, {{tree, third}, {controls, 2 * third}});
-    if (!one_column) share(window, Qt::Vertical, {{tree, 2 * third}, {notes, third}});
-  }
+  QDockWidget* tree = nullptr;
+  QDockWidget* notes = nullptr;
+  QDockWidget* controls = nullptr;
+  int tree_px = 0;
+  int controls_px = 0;  ///< 0: under the tree
 };
+
+/// The tree's name, time, pings and schools are seen where the views can spare the room; what is left in wide windows is
+/// theirs. Where they cannot spare two columns, the controls stand under the tree.
+Sides put_sides(QMainWindow& window) {
+  Sides sides;
+  sides.tree_px = std::min(kWholeTree_px, window.width() * 22 / 100);
+  sides.controls_px = std::min(kWholeControls_px, window.width() / 5);
+  if (window.width() - sides.tree_px - sides.controls_px < 2 * kLeastView_px) {
+    sides.tree_px = kWholeTree_px;
+    sides.controls_px = 0;
+  }
+  sides.tree = put(window, Qt::LeftDockWidgetArea, "survey_tree");
+  sides.notes = put(window, Qt::LeftDockWidgetArea, "diagnostics");
+  const auto side = sides.controls_px > 0 ? Qt::RightDockWidgetArea : Qt::LeftDockWidgetArea;
+  sides.controls = put(window, side, "controls");
+  return sides;
+}
+
+void stack(QMainWindow& window, const Sides& sides) {
+  if (sides.controls_px > 0) {
+    behind(window, sides.notes, {"journal"});
+  } else {
+    behind(window, sides.tree, {"diagnostics", "journal"});
+  }
+}
+
+void share_height(QMainWindow& window, const Sides& sides) {
+  const int third = window.height() / 3;
+  if (sides.controls_px > 0) {
+    share(window, Qt::Vertical, {{sides.tree, 2 * third}, {sides.notes, third}});
+  } else {
+    share(window, Qt::Vertical, {{sides.tree, third}, {sides.controls, 2 * third}});
+  }
+}
 
 }  // namespace
 
@@ -113,7 +125,7 @@ void lay_out_docks(QMainWindow& window) {
   const int width = window.width();
   const int height = window.height();
   if (width < kNarrowScreen_px || height < kLowScreen_px) return lay_out_small(window);
-  const Sides sides(window);
+  const Sides sides = put_sides(window);
   behind(window, sides.controls,
          {"range_slice", "plane_slice", "noise_steps"});  // out of the way: a row of all seven would widen the window
   QDockWidget* top = put(window, Qt::TopDockWidgetArea, "top_slice");
@@ -131,12 +143,12 @@ void lay_out_docks(QMainWindow& window) {
   behind(window, maps, {"survey_map"});
   behind(window, time, {"echogram", "survey_timeline", "propagation", "lineage"});
   behind(window, tables, {"school_pings", "review", "refused", "marks", "chart", "frequency", "curves"});
-  sides.stack(window);
-  const int each = (width - sides.width_px()) / 2;
+  stack(window, sides);
+  const int each = (width - sides.tree_px - sides.controls_px) / 2;
   share(window, Qt::Horizontal, {{sides.tree, sides.tree_px}, {top, each}, {side, each}});
-  share(window, Qt::Horizontal, {{sides.controls, sides.controls_px}});
+  if (sides.controls_px > 0) share(window, Qt::Horizontal, {{sides.controls, sides.controls_px}});
   share(window, Qt::Horizontal, {{time, each}, {tables, each}});
-  sides.share_height(window);
+  share_height(window, sides);
   // In a low window a quarter is too little for a strip of masks with its titles.
   const int below = height < kLowWindow_px ? height * 32 / 100 : height / 4;
   const int above = (height - below) / 2;

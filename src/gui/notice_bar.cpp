@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gui/notice_bar.h"
 
+#include <QCursor>
 #include <QEvent>
 #include <QFontMetrics>
 #include <QMouseEvent>
@@ -17,27 +18,30 @@ namespace {
 
 constexpr int kMargin_px = 8;
 
-/// All the words, over what is above their line. It takes no click: what lies below does.
-class Unfolded : public QWidget {
+}  // namespace
+
+/// All the words, over what is above their line.
+class UnfoldedWords : public QWidget {
  public:
-  explicit Unfolded(QWidget* window) : QWidget(window) {
+  UnfoldedWords(QWidget* window, std::function<void()> clicked) : QWidget(window), clicked_(std::move(clicked)) {
     setObjectName("unfolded");
-    setAttribute(Qt::WA_TransparentForMouseEvents);
     setAutoFillBackground(true);
-    hide();
+    fold();
   }
 
-  /// @param line where they stand as far as they have room.
-  void tell(const QString& words, const QRect& line) {
+  /// @param line    where they stand as far as they have room
+  /// @param notice  takes clicks; values under the pointer leave them, and the pointer's place, to what lies below
+  void tell(const QString& words, const QRect& line, bool notice) {
     lay_out(words, line.width() - 2 * kMargin_px);
-    const int height = above() + static_cast<int>(std::ceil(layout_.boundingRect().height()));
-    const bool cut = !words.isEmpty() && height > line.height();
-    if (cut) {
-      setGeometry(line.x(), line.y() + line.height() - height, line.width(), height);
-      raise();
-      update();
-    }
-    setVisible(cut);
+    if (layout_.lineCount() < 2) return fold();
+    const int height = std::max(line.height(), above() + static_cast<int>(std::ceil(layout_.boundingRect().height())));
+    const int top = std::max(0, line.y() + line.height() - height);
+    const QRect place(line.x(), top, line.width(), height);
+    if (!notice && place.contains(window()->mapFromGlobal(QCursor::pos()))) return fold();
+    setAttribute(Qt::WA_TransparentForMouseEvents, !notice);
+    setGeometry(place);
+    raise();
+    update();
   }
 
  protected:
@@ -48,8 +52,11 @@ class Unfolded : public QWidget {
     painter.setPen(palette().windowText().color());
     layout_.draw(&painter, QPointF(kMargin_px, above() / 2));
   }
+  void mousePressEvent(QMouseEvent*) override { clicked_(); }
 
  private:
+  /// Hidden, it would have the whole window laid out anew.
+  void fold() { setGeometry(0, 0, 0, 0); }
   /// Between words where it can be.
   void lay_out(const QString& words, int width_px) {
     layout_.setText(words);
@@ -69,15 +76,14 @@ class Unfolded : public QWidget {
   [[nodiscard]] int above() const { return fontMetrics().height() / 2; }
 
   QTextLayout layout_;
+  std::function<void()> clicked_;
 };
-
-}  // namespace
 
 NoticeBar::NoticeBar(QWidget* window, std::function<void()> clicked)
     : QStatusBar(window),
       clicked_(std::move(clicked)),
       read_out_(new QLineEdit(this)),
-      unfolded_(new Unfolded(window)) {
+      unfolded_(new UnfoldedWords(window, clicked_)) {
   read_out_->setObjectName("read_out");
   read_out_->setAccessibleName(translated("Values under the pointer"));
   read_out_->setReadOnly(true);
@@ -92,24 +98,27 @@ NoticeBar::NoticeBar(QWidget* window, std::function<void()> clicked)
 }
 
 void NoticeBar::tell(const QString& under_pointer) {
-  if (read_out_->text() == under_pointer) return;
-  read_out_->setText(under_pointer);
-  read_out_->setCursorPosition(0);
+  if (read_out_->text() != under_pointer) {
+    read_out_->setText(under_pointer);
+    read_out_->setCursorPosition(0);
+  }
   unfold();
 }
 
-/// What the words have: all that is left of the buttons.
+/// What the words have: all that is left of the buttons, which stand where lines end.
 QRect NoticeBar::room() const {
+  int left = 0;
   int right = width();
   for (const QWidget* widget : findChildren<QWidget*>(Qt::FindDirectChildrenOnly)) {
-    if (widget != read_out_ && widget->isVisible()) right = std::min(right, widget->x());
+    if (widget == read_out_ || !widget->isVisible()) continue;
+    isRightToLeft() ? left = std::max(left, widget->geometry().right() + 1) : right = std::min(right, widget->x());
   }
-  return {mapTo(window(), QPoint(0, 0)), QSize(right, height())};
+  return {mapTo(window(), QPoint(left, 0)), QSize(right - left, height())};
 }
 
 void NoticeBar::unfold() {
-  const QString notice = currentMessage();
-  static_cast<Unfolded*>(unfolded_)->tell(notice.isEmpty() ? read_out_->text() : notice, room());
+  const bool notice = !currentMessage().isEmpty();
+  unfolded_->tell(notice ? currentMessage() : read_out_->text(), room(), notice);
 }
 
 bool NoticeBar::event(QEvent* event) {

@@ -7,9 +7,11 @@
 
 namespace sonar {
 
+class UnfoldedWords;
+
 /// The foot of a window: the values under the pointer or the last notice, what waits for an answer to its right. Words that
-/// have no room in its line unfold upwards, over the views: nothing is cut, and nothing moves. A click on a notice leads to
-/// those before it.
+/// have no room in its line unfold upwards, over the views but not over what is pointed at: nothing is cut, and nothing
+/// moves. A click on a notice leads to those before it.
 class NoticeBar : public QStatusBar {
  public:
   NoticeBar(QWidget* window, std::function<void()> clicked);
@@ -28,7 +30,7 @@ class NoticeBar : public QStatusBar {
 
   std::function<void()> clicked_;
   QLineEdit* read_out_;
-  QWidget* unfolded_;
+  UnfoldedWords* unfolded_;
 };
 
 }  // namespace sonar

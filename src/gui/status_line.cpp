@@ -62,9 +62,10 @@ void show_progress(QProgressBar& bar, QPushButton& cancel, const Document& docum
   if (!running) return;
   const QString stage = QString::fromStdString(progress.stage);
   bar.setFormat(stage + " %p %");
+  bar.setToolTip(stage);
   // As wide as its words; no narrower while the work goes on, for what counts must not make it tremble.
-  const int words = bar.fontMetrics().horizontalAdvance(stage + " 100 %  ");
-  bar.setFixedWidth(std::clamp(words, bar.width(), std::max(bar.width(), bar.window()->width() / 2)));
+  const int words = std::max(bar.width(), bar.fontMetrics().horizontalAdvance(stage + " 100 %  "));
+  bar.setFixedWidth(std::clamp(words, kProgressWidth_px, std::max(kProgressWidth_px, bar.window()->width() / 2)));
   bar.setRange(0, static_cast<int>(progress.total));
   bar.setValue(static_cast<int>(progress.done));
 }

@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::size_t kMostSchools = 12;
 constexpr double kMostOfHeight = 0.5;  ///< what the legend may take of the volume's height
-constexpr double kShort_em = 12.0;     ///< words that have room for their first part
 
 double line_of(const Theme& theme) { return 1.5 * theme.text_px; }
 
@@ -116,10 +115,7 @@ PlacedLegend placed_legend(const VolumeFigure& figure, const PictureOptions& opt
   std::vector<LegendRow> fewer = all;
   std::erase_if(fewer, [](const LegendRow& row) { return row.one_school; });
   std::vector<LegendRow> shorter = fewer;
-  for (LegendRow& row : shorter) {
-    const std::string words = elided_line(row.words, theme.text_px, kShort_em * theme.text_px);
-    if (!words.empty()) row.words = words;
-  }
+  for (LegendRow& row : shorter) row.words.resize(std::min(row.words.size(), row.words.find(',')));
   for (const bool over_sector : {false, true}) {
     for (const auto& rows : {all, fewer, shorter}) {
       const PixelRect extent = extent_of(rows, theme);
