@@ -270,7 +270,7 @@ class Files(sonarx.Case):
         self.assertFalse(any(text.startswith("slice from") for text in said), said)
         said = self.words("volume", *BOTH, "--ping", "9", "--frames", "0", "--slice-planes", "--depth-raster", DEPTHS)
         self.assertIn("slice from above", said)
-        self.assertIn("seabed of the depth chart", said)
+        self.assertIn("seabed, of the depth chart", said)
         self.assertNotIn("seabed, fitted to the ping's echoes", said)
         said = " ".join(self.words("volume", *BOTH, "--ping", "9", "--frames", "0", "--no-context"))
         self.assertNotIn("range", said)

@@ -306,7 +306,7 @@ TEST(VolumeFigure, TheLegendSaysWhichSeabedIsShown) {
   EXPECT_NE(words_of(figure).find("school 2"), std::string::npos);
   figure.seabed = std::make_shared<SeabedPatch>(SeabedPatch{2, 2, 0, 0, 1, std::vector<float>(4, 90.0F)});
   EXPECT_EQ(words_of(figure).find("fitted"), std::string::npos);
-  EXPECT_NE(words_of(figure).find("seabed of the depth chart"), std::string::npos);
+  EXPECT_NE(words_of(figure).find("seabed, of the depth chart"), std::string::npos);
   EXPECT_EQ(words_of(schools_alone(13)).find("school 2"), std::string::npos);
   EXPECT_NE(words_of(schools_alone(13)).find("fuzzy area"), std::string::npos);
   options.volume.seabed = false;

@@ -29,7 +29,7 @@ void add_surroundings(std::vector<LegendRow>& rows, const VolumeFigure& figure, 
   using enum LegendRow::Sign;
   if (!figure.refused.empty()) rows.push_back({mark, {}, kRefusedWords});
   if (figure.seabed) {
-    rows.push_back({area, seabed_colours().at(0.5), "seabed of the depth chart"});
+    rows.push_back({area, seabed_colours().at(0.5), "seabed, of the depth chart"});
   } else if (options.volume.context && options.volume.seabed && figure.fitted) {
     rows.push_back({area, theme.land, "seabed, fitted to the ping's echoes"});
   }
@@ -116,13 +116,14 @@ PlacedLegend placed_legend(const VolumeFigure& figure, const PictureOptions& opt
   std::erase_if(fewer, [](const LegendRow& row) { return row.one_school; });
   std::vector<LegendRow> shorter = fewer;
   for (LegendRow& row : shorter) row.words.resize(std::min(row.words.size(), row.words.find(',')));
-  for (const bool over_sector : {false, true}) {
-    for (const auto& rows : {all, fewer, shorter}) {
-      const PixelRect extent = extent_of(rows, theme);
-      const auto found = place_off(kept_clear, over_sector, place, extent.width, extent.height, Corner::lower_left);
-      if (found) return {rows, *found, false};
-    }
+  const auto fits = [&](const std::vector<LegendRow>& rows, bool over_sector) {
+    const PixelRect extent = extent_of(rows, theme);
+    return place_off(kept_clear, over_sector, place, extent.width, extent.height, Corner::lower_left);
+  };
+  for (const auto& rows : {all, fewer, shorter}) {
+    if (const auto found = fits(rows, false)) return {rows, *found, false};
   }
+  if (const auto found = fits(shorter, true)) return {shorter, *found, false};
   return {{}, {place.x, place.y + place.height, 0.0, 0.0}, true};
 }
 
