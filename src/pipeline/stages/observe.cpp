@@ -87,11 +87,15 @@ void note_narrow_grid(const DetectParams& params, ObservationProduct& product) {
                    params.size.min_fans, params.size.min_beams)});
 }
 
+/// Said once, also where the masks that were kept come from the same pings.
 void note_pings_left_out(PingReach reach, ObservationProduct& product) {
   const std::int64_t all = std::ssize(product.pings);
   if (reach.last < reach.first || reach.last - reach.first + 1 == all) return;
-  product.diagnostics.push_back({DiagnosticCode::pings_left_out, "", -1, -1,
-                                 fmt::format("pings {} to {} of {} only", reach.first, reach.last, all)});
+  Diagnostic note{DiagnosticCode::pings_left_out, "", -1, -1,
+                  fmt::format("pings {} to {} of {} only", reach.first, reach.last, all)};
+  const auto same = [&](const Diagnostic& n) { return n.code == note.code && n.text == note.text; };
+  if (std::any_of(product.diagnostics.begin(), product.diagnostics.end(), same)) return;
+  product.diagnostics.push_back(std::move(note));
 }
 
 /// Tables leave empty what was not recorded; tracks could not.
