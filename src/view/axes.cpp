@@ -215,11 +215,15 @@ void make_isotropic(PlotFrame& plot) {
   axis.last = middle + half;
 }
 
+Ticks x_ticks(const PlotFrame& axes, const Theme& theme) {
+  const int most = std::max(2, static_cast<int>(axes.place.width / (5.0 * theme.text_px)));
+  return axis_ticks(as_read(axes).x, most);
+}
+
 void add_axes(FrameDescription& frame, const PlotFrame& axes, const Theme& theme, const AxesStyle& style) {
   const PlotFrame plot = as_read(axes);
-  const int most_x = std::max(2, static_cast<int>(plot.place.width / (5.0 * theme.text_px)));
   const int most_y = std::max(2, static_cast<int>(plot.place.height / (3.5 * theme.text_px)));
-  const Ticks x = axis_ticks(plot.x, most_x);
+  const Ticks x = x_ticks(plot, theme);
   const Ticks y = axis_ticks(plot.y, most_y);
   if (style.grid) add_grid(frame, plot, theme, x, y);
   PathItem marks;

@@ -60,6 +60,8 @@ struct AxesStyle {
   bool minor = true;
 };
 
+/// Ticks that the lower axis is drawn with, in the unit that it is read in.
+[[nodiscard]] Ticks x_ticks(const PlotFrame& axes, const Theme& theme);
 /// Frame, ticks outside, tick labels, axis labels.
 void add_axes(FrameDescription& frame, const PlotFrame& axes, const Theme& theme, const AxesStyle& style = {});
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "clocked_window.h"
+#include "session/looks/transfer_editor.h"
 #include "session/maps/observation_map_model.h"
 #include "session/playing/playback.h"
 #include "session/volume/volume_model.h"
@@ -182,6 +183,22 @@ TEST_F(Following, F7TakesTheColoursOfTheEchoSounderAndF5TheUsualOnes) {
   EXPECT_EQ(workspace().display.values().scale.map, usual.scale.map);
   EXPECT_EQ(workspace().display.values().scale.low_db, usual.scale.low_db);
   EXPECT_EQ(app_->picture("top_slice")->image(), before) << "in ping " << target.ping;
+}
+
+TEST_F(Following, F5TakesBackACurveThatWasDrawnByHand) {
+  look_at_school();
+  const std::vector<OpacityPoint> usual = app_->transfer->points();
+  ASSERT_GT(usual.size(), 1U);
+  auto* editor = window_->findChild<QWidget*>("transfer_editor");
+  const PixelPoint corner = app_->transfer->place_of(usual[1]);
+  press_on(editor, corner);
+  move_on(editor, {corner.x + 12.0, corner.y + 8.0});
+  release_on(editor, {corner.x + 12.0, corner.y + 8.0});
+  ASSERT_FALSE(workspace().curve_follows_scale());
+  EXPECT_NE(app_->transfer->points(), usual);
+  key(Qt::Key_F5);
+  EXPECT_TRUE(workspace().curve_follows_scale());
+  EXPECT_EQ(app_->transfer->points(), usual);
 }
 
 }  // namespace

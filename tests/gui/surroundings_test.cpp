@@ -5,6 +5,7 @@
 
 #include <QAction>
 #include <QLineEdit>
+#include <QProgressBar>
 #include <QPushButton>
 #include <QStatusBar>
 #include <QTest>
@@ -105,6 +106,23 @@ TEST_F(Surroundings, NothingInTheStatusLineIsCut) {
   status->clearMessage();
   EXPECT_TRUE(status->toolTip().isEmpty());
   EXPECT_EQ(unfolded->height(), 0);
+}
+
+TEST_F(Surroundings, TheProgressIsAsWideAsItsWords) {
+  const auto& bar = *window_->statusBar()->findChild<QProgressBar*>();
+  const int views = view("top_slice")->height();
+  int seen = 0;
+  const Listening listening(document().changes(), [&](DocumentChange change) {
+    if (change != DocumentChange::progress || document().activity().stage.empty()) return;
+    ++seen;
+    EXPECT_TRUE(bar.text().contains(QString::fromStdString(document().activity().stage)));
+    EXPECT_GE(bar.width(), bar.fontMetrics().horizontalAdvance(bar.text())) << bar.text().toStdString();
+    EXPECT_EQ(view("top_slice")->height(), views) << "nothing moves for it";
+  });
+  look_at_school();
+  key(Qt::Key_D);
+  EXPECT_GT(seen, 2);
+  EXPECT_FALSE(bar.isVisible());
 }
 
 TEST_F(Surroundings, F12ShowsHowLongPicturesTook) {

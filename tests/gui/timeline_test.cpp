@@ -97,6 +97,23 @@ TEST_F(Timeline, SchoolsLieOverItsEchoesAndTheControlsGiveItLimitsOfItsOwn) {
   EXPECT_EQ(app_->picture("top_slice")->image(), slice) << "the slices keep theirs";
 }
 
+TEST_F(Timeline, ShiftF8ShowsFilteredDataAndControlF8TheMean) {
+  const Image usual = timeline().image();
+  const TimelineLimits limits = workspace().timelines.values();
+  const bool slices = workspace().display.values().filtered;
+  key(Qt::Key_F8, Qt::ShiftModifier);
+  EXPECT_NE(workspace().timelines.values().filtered, limits.filtered);
+  EXPECT_NE(timeline().image(), usual);
+  key(Qt::Key_F8, Qt::ShiftModifier);
+  EXPECT_EQ(timeline().image(), usual);
+  key(Qt::Key_F8, Qt::ControlModifier);
+  EXPECT_NE(workspace().timelines.values().maximum, limits.maximum);
+  EXPECT_NE(timeline().image(), usual);
+  key(Qt::Key_F8, Qt::ControlModifier);
+  EXPECT_EQ(timeline().image(), usual);
+  EXPECT_EQ(workspace().display.values().filtered, slices) << "F8 alone is the slices'";
+}
+
 TEST_F(Timeline, AnEventStandsAtThePingThatWasClicked) {
   std::string asked;
   app_->dialogs.text = [&](const std::string& title, const std::string&, const std::string&) {

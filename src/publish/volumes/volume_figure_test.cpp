@@ -48,6 +48,15 @@ VolumeFigure schools_alone(int schools) {
   return figure;
 }
 
+/// A view's trails: none, the ship's, or all of them, each with a row of the legend.
+void choose_trails(int view, VolumeFigure& figure, PictureOptions& options) {
+  figure.trails = view % 4 == 0 ? nullptr : std::make_shared<std::vector<SceneLine>>();
+  figure.schools_tracked = view % 4 > 1;
+  options.volume.ship_track = true;
+  options.volume.school_tracks = view % 4 == 3;
+  options.volume.trail_pings = view % 5;
+}
+
 /// The frame of a figure without echoes.
 FrameDescription frame_of(const VolumeFigure& figure, const PictureOptions& options) {
   Work work(1);
@@ -95,17 +104,19 @@ std::vector<PixelPoint> seen_of(const VolumeFigure& figure, const VolumePlace& p
 // Law: in 200 random views no words in the volume lie on others, on a school, or beyond its edge: labels, numbers of
 // schools, legend and scale bar.
 TEST(VolumeFigure, NothingLiesOnAnythingInTwoHundredViews) {
-  const VolumeFigure figure = schools_alone(7);
+  VolumeFigure figure = schools_alone(7);
   std::mt19937 random(20200105);
   const auto even = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   int numbers = 0;
   int legends = 0;
+  int tracks = 0;
   int bars = 0;
   for (int view = 0; view < 200; ++view) {
     PictureOptions options;
     options.size = view % 2 == 0 ? PixelSize{640, 400} : PixelSize{900, 700};
     options.dark = view % 3 == 0;
     options.volume.drop_lines = DropLines::all;
+    choose_trails(view, figure, options);
     options.kind.volume.orbit_deg = even(-180.0, 180.0);
     options.kind.volume.rise_deg = even(-70.0, 40.0);
     options.kind.volume.zoom = even(0.6, 2.5);
@@ -123,12 +134,14 @@ TEST(VolumeFigure, NothingLiesOnAnythingInTwoHundredViews) {
       for (const PixelPoint& school : schools) ASSERT_FALSE(inside(box, school)) << view << ' ' << text.text;
       numbers += text.text.size() == 1 ? 1 : 0;
       legends += text.text == "fuzzy area" ? 1 : 0;
+      tracks += text.text == "track of the ship" ? 1 : 0;
       bar = bar || text.text.ends_with("at the view's centre");
     }
     bars += bar ? 1 : 0;
   }
   EXPECT_GT(numbers, 500);
   EXPECT_GT(legends, 190);
+  EXPECT_GT(tracks, 140);
   EXPECT_GT(bars, 190);
 }
 
@@ -200,6 +213,7 @@ TEST(VolumeFigure, LegendAndScaleBarKeepOffTheSectorInTwoHundredViews) {
     options.kind.volume.rise_deg = even(-70.0, 40.0);
     options.kind.volume.zoom = even(0.4, 1.4);
     options.volume.ship_length_m = 1.0;  // kept off too; here the sector alone is looked at
+    choose_trails(view, figure, options);
     const auto place = volume_place(options);
     ASSERT_TRUE(place);
     const PixelRect& picture = place->rect;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "session/maps/masked_pings.h"
 #include "session/maps/strip_panels.h"
@@ -246,6 +247,26 @@ TEST(StripModel, SaysNoSchoolOnlyWhereSchoolsWereLookedFor) {
     wish.searched = searched;
     for (const PropagationPanel& panel : strip_panels(wish, {})) EXPECT_EQ(panel.searched, searched);
   }
+}
+
+// Nothing but their words can change: no school is there before and after.
+TEST(StripModel, AndTheMapSayOtherwiseOnceSchoolsWereLookedForInVain) {
+  TestMaps maps;
+  const auto recipe = TestSurvey::easy().fresh() / "nothing.json";
+  std::filesystem::create_directories(recipe.parent_path());
+  std::ofstream(recipe) << R"({"recipe_version": 1, "track": {"min_level_db": 0}})";
+  ASSERT_TRUE(maps.workspace.document.use_named_recipe(recipe.string()));
+  maps.settle();
+  maps.see(maps.strip);
+  maps.see(maps.map);
+  const Image strip = maps.strip.image();
+  const Image map = maps.map.image();
+  maps.workspace.document.detect({0});
+  maps.settle();
+  ASSERT_TRUE(maps.workspace.document.detected(0));
+  ASSERT_TRUE(maps.workspace.document.state().schools.empty());
+  EXPECT_NE(maps.strip.image(), strip);
+  EXPECT_NE(maps.map.image(), map);
 }
 
 // As it is in a window that was drawn together to the height of a small laptop.

@@ -19,7 +19,6 @@ constexpr std::array<double, 24> kSteps_s{
     3600 * 30.0, 3600 * 20.0, 3600 * 10.0, 3600 * 5.0, 3600 * 2.0, 3600.0, 1800.0, 1200.0, 600.0, 300.0, 120.0, 60.0,
     30.0,        20.0,        10.0,        5.0,        2.0,        1.0,    0.5,    0.2,    0.1,   0.05,  0.02,  0.01};
 constexpr double kMetresPerDegree = 111'195.0;
-constexpr double kArrowFrom_rad = 0.0174532925;
 constexpr int kLineSteps = 96;
 
 /// The largest step whose lines are not farther apart than `most_deg`.
@@ -173,80 +172,6 @@ void add_graticule(FrameDescription& frame, const MapFrame& map, const Theme& th
     frame.items.emplace_back(
         text_item({label.at.x, label.at.y + 1.1 * em}, label.text, em, theme.text, TextAnchor::centre));
   }
-}
-
-ScaleBar scale_bar(const MapFrame& map, PixelPoint left, double most_px, bool nautical, const Units& units) {
-  const Geographic middle = map.geographic({left.x + most_px / 2.0, left.y}).value_or(Geographic{});
-  const double metres_per_px = map.true_metres_per_px(middle);
-  Unit unit = nautical ? Unit{kMetresPerNauticalMile, "nmi"} : Unit{1000.0, "km"};
-  const double most_m = most_px * metres_per_px;
-  if (!nautical && most_m < 1000.0) unit = units.length();
-  ScaleBar bar;
-  bar.length_m = round_below(most_m, unit);
-  bar.from = left;
-  bar.to = {left.x + bar.length_m / metres_per_px, left.y};
-  bar.text = round_text(bar.length_m, unit);
-  return bar;
-}
-
-namespace {
-
-std::array<ScaleBar, 2> scale_bars(const MapFrame& map, const Theme& theme) {
-  const double em = theme.text_px;
-  const double most_px = std::min(14.0 * em, 0.3 * map.place.width);
-  const double x = map.place.x + 1.2 * em;
-  const double y = map.place.y + map.place.height - 2.0 * em;
-  return {scale_bar(map, {x, y}, most_px, true, theme.units),
-          scale_bar(map, {x, y + 0.9 * em}, most_px, false, theme.units)};
-}
-
-}  // namespace
-
-std::optional<PixelRect> scale_bars_place(const MapFrame& map, const Theme& theme) {
-  constexpr double kLeastMap_em = 10.0;  // of a lower one they cover a quarter and more
-  const double em = theme.text_px;
-  if (map.place.height < kLeastMap_em * em) return std::nullopt;
-  const auto bars = scale_bars(map, theme);
-  const PixelPoint from = bars[0].from;
-  const double longest = std::max(bars[0].to.x, bars[1].to.x) - from.x;
-  return PixelRect{from.x - 0.6 * em, from.y - 0.9 * em, longest + 5.4 * em, 2.7 * em};
-}
-
-namespace {
-
-void add_scale(FrameDescription& frame, const MapFrame& map, const Theme& theme) {
-  const double em = theme.text_px;
-  const auto place = scale_bars_place(map, theme);
-  if (!place) return;
-  const auto bars = scale_bars(map, theme);
-  frame.items.emplace_back(rectangle_item(*place, theme.halo, theme.grid, theme.line_px));
-  for (const ScaleBar& bar : bars) {
-    const double tick = 0.3 * em;
-    PathItem path = polyline_item({{bar.from.x, bar.from.y - tick}, bar.from, bar.to, {bar.to.x, bar.to.y - tick}},
-                                  false, theme.text, 1.5 * theme.line_px);
-    frame.items.emplace_back(std::move(path));
-    frame.items.emplace_back(
-        text_item({bar.to.x + 0.4 * em, bar.to.y - 0.1 * em}, bar.text, small_text_px(theme, 0.9), theme.text));
-  }
-}
-
-}  // namespace
-
-void add_scale_and_north(FrameDescription& frame, const MapFrame& map, const Theme& theme) {
-  add_scale(frame, map, theme);
-  const double em = theme.text_px;
-  double most_rad = 0.0;
-  for (const double u : {0.02, 0.98}) {
-    for (const double v : {0.02, 0.98}) {
-      const auto p = map.geographic({map.place.x + u * map.place.width, map.place.y + v * map.place.height});
-      if (p) most_rad = std::max(most_rad, std::abs(map.projection.north_rad(*p)));
-    }
-  }
-  if (most_rad <= kArrowFrom_rad) return;
-  const PixelPoint at{map.place.x + map.place.width - 2.2 * em, map.place.y + 2.8 * em};
-  const auto here = map.geographic(at);
-  if (!here) return;
-  add_north_arrow(frame, at, 3.0 * em, map.projection.north_rad(*here), theme.text, theme.halo, em);
 }
 
 }  // namespace sonar

@@ -7,6 +7,7 @@
 
 #include "geo/geodesic.h"
 #include "view/maps/graticule.h"
+#include "view/maps/scale_bars.h"
 
 namespace sonar {
 namespace {

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "view/label_room.h"
-#include "view/maps/graticule.h"
 #include "view/maps/observation_map.h"
 #include "view/school_labels.h"
 #include "view/school_look.h"
@@ -50,7 +49,7 @@ void add_map_schools(FrameDescription& frame, const ObservationMapBase& base, st
   const Theme& theme = base.theme;
   const double em = theme.text_px;
   LabelRoom room(base.map.place);
-  if (const auto bars = scale_bars_place(base.map, theme)) room.take(*bars);
+  if (base.scale) room.take(base.scale->place);
   for (const auto& [symbol, half] : {std::pair(base.start, 0.5 * em), std::pair(ship, em)}) {
     if (symbol) room.take({symbol->x - half, symbol->y - half, 2.0 * half, 2.0 * half});
   }

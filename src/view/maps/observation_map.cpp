@@ -128,6 +128,11 @@ Result<ObservationMapBase> observation_map_base(const ObservationProduct& produc
   const auto first = std::find_if(product.pings.begin(), product.pings.end(),
                                   [](const PingNavigation& n) { return n.has_position(); });
   if (first != product.pings.end()) base.start = base.map.at(first->transducer);
+  std::vector<PixelPoint> ship;
+  for (const PingNavigation& n : product.pings) {
+    if (const auto at = n.has_position() ? base.map.at(n.transducer) : std::nullopt) ship.push_back(*at);
+  }
+  base.scale = scale_bars(base.map, theme, ship);
   base.footprints.resize(product.pings.size());
   std::vector<PlanePoint> corners;
   for (std::size_t i = 0; i < rings.size(); ++i) {
@@ -184,7 +189,8 @@ FrameDescription observation_map(const ObservationMapBase& base, const Observati
   }
   frame.items.emplace_back(ClipItem{});
   add_graticule(frame, base.map, theme);
-  add_scale_and_north(frame, base.map, theme);
+  if (base.scale) add_scale_bars(frame, *base.scale, theme);
+  add_north(frame, base.map, theme);
   add_key(frame, base.key_place, base.key, theme);
   const std::string span =
       product.pings.empty() ? std::string() : time_span_text(product.pings.front().time, product.pings.back().time);

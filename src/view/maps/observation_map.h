@@ -15,6 +15,7 @@
 #include "view/key_rows.h"
 #include "view/maps/map_frame.h"
 #include "view/maps/mask_mosaic.h"
+#include "view/maps/scale_bars.h"
 #include "view/refused_marks.h"
 #include "view/theme.h"
 #include "view/volume/mask_colours.h"
@@ -35,6 +36,7 @@ struct ObservationMapBase {
   bool searched = true;               ///< schools were looked for; else the title says that they were not
   std::size_t left_out = 0;           ///< schools that there are and that the map does not show
   std::optional<PixelPoint> start{};  ///< of the observation
+  std::optional<ScaleBars> scale{};   ///< in a corner that the ship keeps off where there is one
   PlacementOf placed = &PingNavigation::placement;
 };
 

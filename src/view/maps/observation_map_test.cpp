@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 #include <variant>
 
 #include "view/label_room.h"
-#include "view/maps/graticule.h"
 #include "view/maps/map_example.h"
 #include "view/maps/map_items.h"
 
@@ -251,12 +252,39 @@ TEST(ObservationMap, AScaleStandsOnlyWhereItLeavesTheMapToBeSeen) {
     const auto base = observation_map_base(p, size, light_theme(size));
     EXPECT_TRUE(base);
     const auto frame = observation_map(*base, p, empty_mosaic(*base, p.pings.size()), 3, {});
-    EXPECT_EQ(says(frame, " nmi"), scale_bars_place(base->map, base->theme).has_value());
+    EXPECT_EQ(says(frame, " nmi"), base->scale.has_value());
     return says(frame, " nmi");
   };
   EXPECT_TRUE(with_scale(kSize));
   EXPECT_TRUE(with_scale({320, 240}));
   EXPECT_FALSE(with_scale({400, 120}));
+}
+
+// Law: wherever the ship goes, it and its start are seen.
+TEST(ObservationMap, TheScaleHidesNoPlaceOfTheShip) {
+  std::set<std::pair<bool, bool>> corners;
+  for (const PixelSize size : {kSize, PixelSize{480, 400}}) {
+    for (int course = 0; course < 360; course += 15) {
+      const ObservationProduct p = map_example::product("obs-0001", 40, {60.0, 5.0}, course);
+      const auto base = observation_map_base(p, size, light_theme(size));
+      ASSERT_TRUE(base);
+      ASSERT_TRUE(base->scale);
+      const PixelRect& box = base->scale->place;
+      for (const PingNavigation& n : p.pings) {
+        EXPECT_FALSE(inside(box, *base->map.at(n.transducer))) << course << " in " << size.width;
+      }
+      const PixelRect& map = base->map.place;
+      EXPECT_TRUE(inside(map, {box.x, box.y}) && inside(map, {box.x + box.width, box.y + box.height})) << course;
+      corners.insert({box.x > map.x + map.width / 2.0, box.y > map.y + map.height / 2.0});
+      bool drawn = false;
+      for (const auto& item : observation_map(*base, p, empty_mosaic(*base, 40), 3, {}).items) {
+        const auto* text = std::get_if<TextItem>(&item);
+        if (text != nullptr && text->text == base->scale->bars[0].text) drawn = inside(box, text->at);
+      }
+      EXPECT_TRUE(drawn) << course;
+    }
+  }
+  EXPECT_GT(corners.size(), 1U);
 }
 
 }  // namespace

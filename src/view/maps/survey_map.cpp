@@ -140,6 +140,23 @@ void add_ship(const SurveyMapDrawing& d, const PingNavigation& last, PixelPoint 
   d.frame.items.emplace_back(ship_item(at, 2.2 * d.em, turned, d.theme.ship, d.theme.background, d.theme.line_px));
 }
 
+/// Where the ship was, and the schools that are shown.
+std::vector<PixelPoint> symbols(const MapFrame& map, std::span<const ObservationProduct> observations,
+                                const SchoolLook& look) {
+  std::vector<PixelPoint> out;
+  const auto add = [&](const Geographic& place) {
+    if (!std::isfinite(place.latitude_deg) || !std::isfinite(place.longitude_deg)) return;
+    if (const auto at = map.at(place)) out.push_back(*at);
+  };
+  for (const ObservationProduct& product : observations) {
+    for (const PingNavigation& n : product.pings) add(n.transducer);
+    for (const SchoolRow& school : product.schools) {
+      if (look.shown(school)) add({school.latitude, school.longitude});
+    }
+  }
+  return out;
+}
+
 std::string second_line(std::span<const ObservationProduct> observations, const SchoolLook& look,
                         const SurveyMapStyle& style) {
   const int unsearched = style.unsearched;
@@ -221,7 +238,8 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
   Places p;
   const MapFrame map = laid_out(*extent, style, size, theme, p);
   const SchoolLook look(observations, style, theme);
-  const SurveyMapDrawing d{frame, map, theme, look, theme.text_px};
+  const SurveyMapDrawing d{frame, map,           theme,
+                           look,  theme.text_px, scale_bars(map, theme, symbols(map, observations, look))};
   frame.items.emplace_back(rectangle_item(map.place, theme.plot));
   DepthBands bands;
   const PingNavigation* last = last_placed(observations);
@@ -262,7 +280,8 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
   for (TextItem& name : names.names) frame.items.emplace_back(std::move(name));
   frame.items.emplace_back(ClipItem{});
   add_graticule(frame, map, theme);
-  add_scale_and_north(frame, map, theme);
+  if (d.scale) add_scale_bars(frame, *d.scale, theme);
+  add_north(frame, map, theme);
   if (style.legend)
     add_survey_legend(
         d, p.legend, bands, style, depths, schools,

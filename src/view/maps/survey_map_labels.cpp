@@ -11,7 +11,6 @@
 
 #include "geo/geodesic.h"
 #include "view/label_room.h"
-#include "view/maps/graticule.h"
 #include "view/school_labels.h"
 #include "view/shapes.h"
 
@@ -21,7 +20,7 @@ namespace {
 LabelRoom room_beside_symbols(const SurveyMapDrawing& d, std::span<const ObservationProduct> observations,
                               const std::optional<PixelPoint>& ship) {
   LabelRoom room(d.map.place);
-  if (const auto bars = scale_bars_place(d.map, d.theme)) room.take(*bars);
+  if (d.scale) room.take(d.scale->place);
   if (ship) room.take({ship->x - d.em, ship->y - d.em, 2.0 * d.em, 2.0 * d.em});
   for (const ObservationProduct& product : observations) {
     if (const auto at = start_on_map(d, product)) room.take({at->x - 0.5 * d.em, at->y - 0.5 * d.em, d.em, d.em});

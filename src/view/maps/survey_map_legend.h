@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "model/depth_grid.h"
 #include "view/maps/depth_layer.h"
 #include "view/maps/map_frame.h"
+#include "view/maps/scale_bars.h"
 #include "view/maps/survey_map.h"
 #include "view/school_look.h"
 
@@ -19,6 +21,7 @@ struct SurveyMapDrawing {
   const Theme& theme;
   const SchoolLook& look;
   double em;
+  std::optional<ScaleBars> scale;  ///< in a corner that the ship and schools keep off where there is one
 };
 
 inline constexpr Rgba8 kSweptColour{110, 110, 110, 95};

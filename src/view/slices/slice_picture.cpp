@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "base/time.h"
 #include "base/units.h"
@@ -25,42 +26,33 @@ PlotFrame slice_axes(const PixelRect& place, const SliceExtent& extent) {
   return plot;
 }
 
-/// Distances to the side that the sonar looks to, the bow up; to both sides without a sign where it looks to both.
-void label_sides(PlotAxis& x, const Sector& sector, const Theme& theme) {
-  bool port = false;
-  bool starboard = false;
-  for (int beam = 0; beam < sector.beams(); ++beam) {
-    const double aside = std::sin(sector.azimuth_rad(beam));
-    port = port || aside < -1e-9;
-    starboard = starboard || aside > 1e-9;
-  }
-  if (port == starboard) {
-    x = length_axis(x.first, x.last, "port | starboard", theme);
-    x.both_ways = true;
-  } else if (port) {
-    x = length_axis(-x.first, -x.last, "port", theme);
-  } else {
-    x = length_axis(x.first, x.last, "starboard", theme);
-  }
+/// Distances to either side of the ship, the bow up, without a sign; named is a side that has a number.
+void label_sides(PlotFrame& plot, const Theme& theme) {
+  const auto named = [&](const char* sides) { return length_axis(plot.x.first, plot.x.last, sides, theme); };
+  plot.x = named("port | starboard");
+  const std::vector<double> numbers = x_ticks(plot, theme).major;
+  const bool port = numbers.empty() || numbers.front() < 0.0;
+  const bool starboard = numbers.empty() || numbers.back() > 0.0;
+  if (port != starboard) plot.x = named(port ? "port" : "starboard");
+  plot.x.both_ways = true;
 }
 
-void label_from_above(PlotFrame& plot, const Sector& sector, bool north_up, double up_rad, const Theme& theme) {
+void label_from_above(PlotFrame& plot, bool north_up, double up_rad, const Theme& theme) {
   const char* upwards = north_up ? "north" : up_rad == 0.0 ? "ahead" : "up";
   plot.y = length_axis(-plot.y.first, -plot.y.last, upwards, theme);
-  if (!north_up && up_rad == 0.0) return label_sides(plot.x, sector, theme);
+  if (!north_up && up_rad == 0.0) return label_sides(plot, theme);
   plot.x = length_axis(plot.x.first, plot.x.last, north_up ? "east" : "right", theme);
 }
 
 /// Slice coordinates to what people read: depths below the water line, north upwards, elevations upwards.
-void label_axes(PlotFrame& plot, const Sector& sector, const SliceView& view, const SlicePing& ping, bool north_up,
-                const Theme& theme) {
+void label_axes(PlotFrame& plot, const SliceView& view, const SlicePing& ping, bool north_up, const Theme& theme) {
   const auto depths = [&](double origin_z) {
     plot.y.first += origin_z + ping.transducer_depth_m;
     plot.y.last += origin_z + ping.transducer_depth_m;
     plot.y = length_axis(plot.y.first, plot.y.last, ping.moved ? fmt::format("depth, {}", kStraightAndLevel) : "depth",
                          theme);
   };
-  const auto from_above = [&] { label_from_above(plot, sector, north_up, view.up_rad, theme); };
+  const auto from_above = [&] { label_from_above(plot, north_up, view.up_rad, theme); };
   if (std::holds_alternative<TopSlice>(view.slice)) return from_above();
   if (std::holds_alternative<SideSlice>(view.slice)) {
     depths(0.0);
@@ -193,7 +185,7 @@ Result<SlicePicture> slice_picture(const Sector& sector, const SliceData& data, 
     out.plot = std::move(whole->plot);
     out.map = std::move(whole->map);
   }
-  label_axes(out.plot, sector, view, ping, style.north_up, theme);
+  label_axes(out.plot, view, ping, style.north_up, theme);
   auto image = slice_image(*out.map, data, style.colours, style.flags, style.masks, theme);
   if (!image) return pass_on(image);
 
