@@ -21,8 +21,9 @@ constexpr std::size_t kFigures = BeamErrors::kFigures;
 
 /// Standard deviations of what is known beforehand.
 constexpr double kLevelKnown_db = 10.0;
-constexpr double kLogWidthKnown = 0.5;
-constexpr double kCentreKnown = 0.02;  ///< of a width: the stated steering
+constexpr double kLogStretchKnown = 0.5;  ///< all widths against those stated, one factor across and one up
+constexpr double kLogWidthKnown = 0.05;   ///< of a beam against its stretched one: the same elements make all beams
+constexpr double kCentreKnown = 0.02;     ///< of a width: the stated steering
 constexpr double kShapeKnown = 3.0;
 
 /// Where Tukey's weights end, in standard deviations.
@@ -52,7 +53,9 @@ class Fitter {
     for (std::size_t i = 0; i < heard.size(); ++i) of_ping_[static_cast<std::size_t>(heard[i].ping)].push_back(i);
     misfits_.resize(heard.size());
     disturbed_.resize(of_ping_.size());
-    for (std::size_t k = 0; k < kShapes; ++k) normal_.reach(unknowns() - kShapes + k, 0);
+    hears_.resize(stated.size());
+    for (std::size_t i = 0; i < heard.size(); ++i) hears_[beam(i)] = true;
+    for (std::size_t k = 0; k < kShared; ++k) normal_.reach(shared() + k, 0);
     std::vector<std::size_t> first(stated.size());  // [beam] the first beam that shares a ping with it
     for (std::size_t b = 0; b < first.size(); ++b) first[b] = b;
     for (const auto& ping : of_ping_) {
@@ -84,7 +87,10 @@ class Fitter {
   }
 
  private:
-  [[nodiscard]] std::size_t unknowns() const { return stated_.size() * kFigures + kShapes; }
+  /// What all beams share: the form, then the stretch of widths across and up.
+  static constexpr std::size_t kShared = kShapes + 2;
+  [[nodiscard]] std::size_t shared() const { return stated_.size() * kFigures; }
+  [[nodiscard]] std::size_t unknowns() const { return shared() + kShared; }
   [[nodiscard]] std::size_t beam(std::size_t heard) const { return static_cast<std::size_t>(heard_[heard].beam); }
   [[nodiscard]] std::size_t row(std::size_t heard) const { return beam(heard) * kFigures; }
 
@@ -176,7 +182,7 @@ class Fitter {
     for (std::size_t i = 0; i < heard_.size(); ++i) {
       const Misfit& m = misfits_[i];
       if (m.weight <= 0.0 || m.under_top_db < kFormHolds_db) continue;
-      sizes.push_back(std::abs(m.residual_db) / std::hypot(heard_[i].se_db, form_se_db(m.under_top_db)));
+      sizes.push_back(m.excess);
     }
     if (sizes.empty()) return;
     // Never below what is known of the errors: what a direction takes away of them would leave out ever more levels.
@@ -200,10 +206,11 @@ class Fitter {
     normal_.clear();
     std::fill(g.begin(), g.end(), 0.0);
     for (std::size_t b = 0; b < stated_.size(); ++b) hold_to_stated(b, g);
-    const std::size_t shapes = unknowns() - kShapes;
-    for (std::size_t k = 0; k < kShapes; ++k) {
-      normal_.at(shapes + k, shapes + k) += 1.0 / square(kShapeKnown);
-      g[shapes + k] -= fit_.shape.k[k] / square(kShapeKnown);
+    for (std::size_t k = 0; k < kShared; ++k) {
+      const double known = k < kShapes ? kShapeKnown : kLogStretchKnown;
+      const double now = k < kShapes ? fit_.shape.k[k] : log_stretch_[k - kShapes];
+      normal_.at(shared() + k, shared() + k) += 1.0 / square(known);
+      g[shared() + k] -= now / square(known);
     }
     for (std::size_t p = 0; p < of_ping_.size(); ++p) {
       ties[p].clear();
@@ -212,13 +219,18 @@ class Fitter {
     }
   }
 
+  /// A beam that hears nothing stays, whatever is stated of it.
   void hold_to_stated(std::size_t b, std::vector<double>& g) {
+    if (!hears_[b]) {
+      for (std::size_t f = 0; f < kFigures; ++f) normal_.at(b * kFigures + f, b * kFigures + f) += 1.0;
+      return;
+    }
     const FittedBeam& now = fit_.beams[b];
     const FittedBeam& was = stated_[b];
     const std::array<double, kFigures> off = {
-        now.level_db - was.level_db, std::log(now.width_across / was.width_across),
-        std::log(now.width_up / was.width_up), (now.centre.across - was.centre.across) / was.width_across,
-        (now.centre.up - was.centre.up) / was.width_up};
+        now.level_db - was.level_db, std::log(now.width_across / was.width_across) - log_stretch_[0],
+        std::log(now.width_up / was.width_up) - log_stretch_[1],
+        (now.centre.across - was.centre.across) / was.width_across, (now.centre.up - was.centre.up) / was.width_up};
     constexpr std::array<double, kFigures> known = {kLevelKnown_db, kLogWidthKnown, kLogWidthKnown, kCentreKnown,
                                                     kCentreKnown};
     for (std::size_t f = 0; f < kFigures; ++f) {
@@ -226,10 +238,17 @@ class Fitter {
       normal_.at(i, i) += 1.0 / square(known[f]);
       g[i] -= off[f] / square(known[f]);
     }
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+      const std::size_t i = b * kFigures + BeamErrors::log_width_across + k;
+      const std::size_t stretch = shared() + kShapes + k;
+      normal_.at(stretch, stretch) += 1.0 / square(kLogWidthKnown);
+      normal_.at(stretch, i) -= 1.0 / square(kLogWidthKnown);
+      g[stretch] += off[BeamErrors::log_width_across + k] / square(kLogWidthKnown);
+    }
   }
 
   void add_ping(std::size_t p, std::vector<double>& g, std::vector<Tied>& ties, DirectionEquations& direct) {
-    const std::size_t shapes = unknowns() - kShapes;
+    const std::size_t shapes = shared();
     direct = {};
     std::array<Tied, kShapes> of_shape{};
     for (std::size_t k = 0; k < kShapes; ++k) of_shape[k].row = shapes + k;
@@ -289,8 +308,9 @@ class Fitter {
       beam.centre.up += at(BeamErrors::centre_up, 0.1) * stated_[b].width_up;
     }
     for (std::size_t k = 0; k < kShapes; ++k) {
-      fit_.shape.k[k] += limited(step[unknowns() - kShapes + k], 0.5);
+      fit_.shape.k[k] += limited(step[shared() + k], 0.5);
     }
+    for (std::size_t k = 0; k < 2; ++k) log_stretch_[k] += limited(step[shared() + kShapes + k], 0.2);
     for (std::size_t p = 0; p < of_ping_.size(); ++p) {
       if (!fit_.used[p]) continue;
       double a = directs[p].ga;
@@ -307,29 +327,9 @@ class Fitter {
     return most;
   }
 
-  /// How much of a level's own error its residual lacks, 0 .. 1: what the ping's direction and the beam took of it.
-  [[nodiscard]] std::vector<double> leverage() {
-    std::vector<double> of_beam(stated_.size());
-    for (std::size_t i = 0; i < heard_.size(); ++i) of_beam[beam(i)] += misfits_[i].weight;
-    std::vector<double> all(heard_.size());
-    for (std::size_t p = 0; p < of_ping_.size(); ++p) {
-      if (!fit_.used[p]) continue;
-      DirectionEquations d;
-      for (const std::size_t i : of_ping_[p]) d.add(misfits_[i]);
-      for (const std::size_t i : of_ping_[p]) {
-        const Misfit& m = misfits_[i];
-        const auto by = d.solve(m.by_direction[0], m.by_direction[1]);
-        const double of_direction = m.weight * (by[0] * m.by_direction[0] + by[1] * m.by_direction[1]);
-        const double of_figures = m.weight > 0.0 ? static_cast<double>(kFigures) * m.weight / of_beam[beam(i)] : 0.0;
-        all[i] = std::min(1.0, of_direction + of_figures);
-      }
-    }
-    return all;
-  }
-
   void finish() {
     fit_.residual_db.assign(heard_.size(), std::numeric_limits<double>::quiet_NaN());
-    const std::vector<double> taken = leverage();
+    const std::vector<double> taken = leverage(heard_, misfits_, of_ping_, fit_.used);
     double squares = 0.0;
     double weights = 0.0;
     double unexplained = 0.0;
@@ -382,7 +382,9 @@ class Fitter {
   std::vector<std::vector<std::size_t>> of_ping_;  ///< [ping] -> indices of heard
   std::vector<Misfit> misfits_;                    ///< [heard]
   std::vector<bool> disturbed_;                    ///< [ping]
+  std::vector<bool> hears_;                        ///< [beam]
   Skyline normal_;
+  std::array<double, 2> log_stretch_{};  ///< across, up
   double scale_ = 1.0;
   PatternFit fit_;
 };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/units.h"
+#include "signal/level_misfit.h"
 
 namespace sonar {
 namespace {
@@ -144,6 +145,37 @@ TEST(PatternFit, ABeamThatTheSphereOnlyBrushedIsNotCrossed) {
     EXPECT_EQ(fit.beams[f * kBeams + 5].level_db, stated()[f * kBeams + 5].level_db);
   }
   EXPECT_TRUE(fit.crossed[2 * kBeams + 1]);
+}
+
+// Few noisy pings over a few beams that are all wider than stated: what many beams share holds the few (each with widths
+// of its own, levels are off by up to 1.3 dB).
+TEST(PatternFit, WidthsThatAllErrAlikeLeaveTheLevelsOfAFewBeamsRight) {
+  World w = world(1.0, 0.0);
+  std::vector<FittedBeam> narrow = stated();
+  for (FittedBeam& beam : narrow) beam.width_across *= 0.72;
+  std::erase_if(w.heard, [&](const HeardLevel& h) {
+    const FaceDirection& at = w.at[static_cast<std::size_t>(h.ping)];
+    return at.across > 0.17 || at.up > 0.15 || h.ping % 2 != 0;
+  });
+  const PatternFit fit = fit_patterns(narrow, w.heard, kPings);
+  int crossed = 0;
+  for (std::size_t b = 0; b < w.beams.size(); ++b) {
+    if (!fit.crossed[b]) continue;
+    ++crossed;
+    EXPECT_NEAR(fit.beams[b].level_db, w.beams[b].level_db, 0.7) << b;
+  }
+  EXPECT_GE(crossed, 2);
+}
+
+// A level that noise lifted by 6 dB is told to be twice as sure as it is, one that noise lowered half as sure.
+TEST(PatternFit, NoiseIsJudgedAgainstWhatShouldHaveBeenHeard) {
+  const FittedBeam beam{40.0, kWidth, kWidth, {0.0, 0.0}};
+  const auto weight = [&](double off_db, double told_se_db) {
+    return misfit({0, 0, 40.0 + off_db, told_se_db}, beam, beam, {}, {0.0, 0.0}, 0.0).weight;
+  };
+  const double six_db = 20.0 * std::log10(2.0);
+  EXPECT_NEAR(weight(six_db, 0.5), weight(0.0, 1.0), 1e-9);
+  EXPECT_NEAR(weight(-six_db, 2.0), weight(0.0, 1.0), 1e-9);
 }
 
 TEST(PatternFit, NothingHeardChangesNothing) {

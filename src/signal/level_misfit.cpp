@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/units.h"
+
 namespace sonar {
 namespace {
 
@@ -27,7 +29,10 @@ Misfit misfit(const HeardLevel& heard, const FittedBeam& beam, const FittedBeam&
   m.residual_db = heard.level_db - beam.level_db - m.under_top_db;
   m.share = std::clamp((m.under_top_db - kFormEnds_db) / (kFormHolds_db - kFormEnds_db), 0.0, 1.0);
   if (m.share <= 0.0) return m;
-  const double variance = square(heard.se_db) + square(form_se_db(m.under_top_db));
+  // Noise against what should have been heard: a level that noise has lifted looks better than it is.
+  constexpr double kMostLifted_db = 12.0;
+  const double lifted_db = std::clamp(m.residual_db, -kMostLifted_db, kMostLifted_db);
+  const double variance = square(heard.se_db) * linear_from_db(lifted_db) + square(form_se_db(m.under_top_db));
   m.excess = std::abs(m.residual_db) / std::sqrt(variance);
   m.weight = m.share / variance;
   if (refused_from > 0.0) {
@@ -42,6 +47,32 @@ Misfit misfit(const HeardLevel& heard, const FittedBeam& beam, const FittedBeam&
   m.by_direction = {by_across, by_up};
   m.by_shape = {x - x * x, y - y * y, -x * y};
   return m;
+}
+
+std::vector<double> leverage(const std::vector<HeardLevel>& heard, const std::vector<Misfit>& misfits,
+                             const std::vector<std::vector<std::size_t>>& of_ping, const std::vector<bool>& used) {
+  std::vector<double> of_beam;
+  for (std::size_t i = 0; i < heard.size(); ++i) {
+    const auto beam = static_cast<std::size_t>(heard[i].beam);
+    if (beam >= of_beam.size()) of_beam.resize(beam + 1);
+    of_beam[beam] += misfits[i].weight;
+  }
+  std::vector<double> all(heard.size());
+  for (std::size_t p = 0; p < of_ping.size(); ++p) {
+    if (!used[p]) continue;
+    DirectionEquations d;
+    for (const std::size_t i : of_ping[p]) d.add(misfits[i]);
+    for (const std::size_t i : of_ping[p]) {
+      const Misfit& m = misfits[i];
+      const auto by = d.solve(m.by_direction[0], m.by_direction[1]);
+      const double of_direction = m.weight * (by[0] * m.by_direction[0] + by[1] * m.by_direction[1]);
+      const double of_figures = m.weight > 0.0 ? static_cast<double>(BeamErrors::kFigures) * m.weight /
+                                                     of_beam[static_cast<std::size_t>(heard[i].beam)]
+                                               : 0.0;
+      all[i] = std::min(1.0, of_direction + of_figures);
+    }
+  }
+  return all;
 }
 
 }  // namespace sonar

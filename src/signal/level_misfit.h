@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "signal/beam_pattern_fit.h"
 
@@ -53,5 +54,12 @@ struct DirectionEquations {
 /// refused_from  residual in standard errors from which on a level does not count (Tukey's biweight); 0 = all count
 [[nodiscard]] Misfit misfit(const HeardLevel& heard, const FittedBeam& beam, const FittedBeam& stated,
                             const PatternShape& shape, const FaceDirection& from, double refused_from);
+
+/// How much of each level's own error its residual lacks, 0 .. 1: what the ping's direction and the beam took of it.
+/// misfits  [heard]
+/// of_ping  [ping] indices of heard; those of pings that are not `used` stay 0
+[[nodiscard]] std::vector<double> leverage(const std::vector<HeardLevel>& heard, const std::vector<Misfit>& misfits,
+                                           const std::vector<std::vector<std::size_t>>& of_ping,
+                                           const std::vector<bool>& used);
 
 }  // namespace sonar

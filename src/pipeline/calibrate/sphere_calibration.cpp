@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -16,9 +17,10 @@
 namespace sonar {
 namespace {
 
-/// The sound speed of the water is known so well, and the sphere's TS must not change by more with it: near a null of the
-/// series a sphere is no measure, and what is averaged over the pulse's band depends on the pulse's form.
+/// The sound speed of the water is known so well, and a received pulse may have the band of an untapered one times this;
+/// the sphere's TS must not change by more with both: near a null of the series a sphere is no measure.
 constexpr double kSpeedKnown_mps = 1.0;
+constexpr double kBandKnown = 1.4;
 constexpr double kSteepest_db = 0.2;
 /// What lies beyond the main lobe is not in the fitted pattern's integral: side lobes of a shaded array hold so much.
 constexpr double kBeyondLobe_db = 0.15;
@@ -35,13 +37,48 @@ struct Gathered {
   int pings = 0;
 };
 
-void gather(const SphereTrack& track, SphereCalibration& out, Gathered& all) {
+/// A track's levels; its pings count from `first_ping` on.
+std::vector<HeardLevel> heard_of(const SphereTrack& track, int first_ping) {
+  std::vector<HeardLevel> heard;
   std::size_t at = 0;
   for (const SphereLevel& level : track.levels) {
     while (track.at[at].ping != level.ping) ++at;
-    out.levels.push_back({all.pings + static_cast<int>(at), level.row, level.level_db, level.se_db});
-    all.echoes.push_back(level);
+    heard.push_back({first_ping + static_cast<int>(at), level.row, level.level_db, level.se_db});
   }
+  return heard;
+}
+
+/// The target by which most beams can be calibrated, of those whose levels fit together: a fish's strength changes as it turns.
+/// The likeliest where they are alike.
+const SphereTrack& sphere_among(const std::vector<SphereTrack>& targets, const SphereBeams& beams, const Work& work) {
+  constexpr double kMuchWorse = 1.7;
+  if (targets.size() == 1) return targets.front();
+  struct Suits {
+    std::ptrdiff_t crossed;
+    double rms_db;
+  };
+  std::vector<Suits> all;
+  double least_db = std::numeric_limits<double>::infinity();
+  for (const SphereTrack& target : targets) {
+    if (work.cancelled()) return targets.front();
+    const PatternFit fit = fit_patterns(beams.stated, heard_of(target, 0), static_cast<int>(target.at.size()));
+    all.push_back({std::count(fit.crossed.begin(), fit.crossed.end(), true), fit.residual_rms_db});
+    if (all.back().crossed > 0) least_db = std::min(least_db, fit.residual_rms_db);
+  }
+  std::size_t best = 0;
+  std::ptrdiff_t most = 0;
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    if (all[t].crossed <= most || all[t].rms_db > kMuchWorse * least_db) continue;
+    most = all[t].crossed;
+    best = t;
+  }
+  return targets[best];
+}
+
+void gather(const SphereTrack& track, SphereCalibration& out, Gathered& all) {
+  const std::vector<HeardLevel> heard = heard_of(track, all.pings);
+  out.levels.insert(out.levels.end(), heard.begin(), heard.end());
+  all.echoes.insert(all.echoes.end(), track.levels.begin(), track.levels.end());
   all.pings += static_cast<int>(track.at.size());
   for (const SphereAt& sphere : track.at) {
     out.range_from_m = out.found == 0 ? sphere.range_m : std::min(out.range_from_m, sphere.range_m);
@@ -108,6 +145,12 @@ double ts_per_mps(const SphereRunParams& params, const ChannelCalibration& c) {
   return std::max(std::abs(at(kStep_mps) - at(0.0)), std::abs(at(-kStep_mps) - at(0.0))) / kStep_mps;
 }
 
+/// By what is not known of the water and of the pulse.
+double ts_se_db(const SphereRunParams& params, const ChannelCalibration& c, double ts_db, double per_mps_db) {
+  const double other_band_db = sphere_ts_db(params.sphere, params.water, c.frequency_hz, c.pulse_length_s / kBandKnown);
+  return std::hypot(kSpeedKnown_mps * per_mps_db, other_band_db - ts_db);
+}
+
 void fill_beams(const ObservationFiles& observation, const SphereBeams& beams, const SphereRunParams& params,
                 const std::vector<EchoTop>& tops, SphereCalibration& out) {
   const BeamGrid& grid = *observation.grid;
@@ -126,12 +169,12 @@ void fill_beams(const ObservationFiles& observation, const SphereBeams& beams, c
     if (!beams.sound[row]) continue;
     b.ts_per_mps_db = ts_per_mps(params, beams.calibration[row]);
     b.hits = fit.hits[row];
-    const double ts_se_db = kSpeedKnown_mps * b.ts_per_mps_db;
-    b.crossed = fit.crossed[row] && ts_se_db <= kSteepest_db;
+    const double ts_se = ts_se_db(params, beams.calibration[row], b.ts_db, b.ts_per_mps_db);
+    b.crossed = fit.crossed[row] && ts_se <= kSteepest_db;
     b.near_null = fit.crossed[row] && !b.crossed;
     if (!b.crossed) continue;
     BeamErrors errors = fit.errors[row];
-    errors.covariance[BeamErrors::level_db][BeamErrors::level_db] += square(ts_se_db);
+    errors.covariance[BeamErrors::level_db][BeamErrors::level_db] += square(ts_se);
     const double sa_db = db_from_linear(pulses_per_sample) - tops[row].share_db;
     b.after = fitted_figures(fit.beams[row], errors, fit.shape, sa_db, tops[row].se_db);
     b.after.channel = b.before.channel;
@@ -205,11 +248,12 @@ Result<SphereCalibration> calibrate_by_sphere(const SurveyFiles& survey, const C
       continue;
     }
     SphereBeams here = sphere_beams(observation, calibration, params);
-    const auto track = find_sphere(survey, observation, here, calibration, params, work);
-    if (!track) return pass_on(track);
+    const auto targets = find_targets(survey, observation, here, calibration, params, work);
+    if (!targets) return pass_on(targets);
     out.observations.push_back(observation.name);
     out.pings += static_cast<std::int64_t>(observation.pings.size());
-    gather(*track, out, all);
+    gather(sphere_among(*targets, here, work), out, all);
+    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
     if (first != nullptr) continue;
     first = &observation;
     beams = std::move(here);

@@ -125,7 +125,7 @@ std::string fans_near_null(const SphereCalibration& made) {
   if (fans.empty()) return "";
   return fmt::format(
       "crossed, but as they were: beams of fan {}, at whose frequency this sphere's TS depends too much on "
-      "the sound speed (another sphere is needed)\n",
+      "the sound speed or the pulse (another sphere is needed)\n",
       spans(fans));
 }
 

@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "base/units.h"
@@ -28,7 +29,7 @@ constexpr int kMostInPing = 40;
 /// Beside a point's echo, along range, it is quiet by so much.
 constexpr double kQuiet_db = 10.0;
 constexpr double kPulsesInWindow = 1.25;  ///< on either side of the centre: the received pulse is twice the sent one
-constexpr double kWorstLevel_db = 1.5;    ///< noise more than this tells nothing of a beam
+constexpr double kWorstLevel_db = 4.0;    ///< noise more than this tells nothing of a beam
 constexpr double kAround_widths = 2.0;
 
 double square(double x) { return x * x; }
@@ -144,7 +145,8 @@ class Chain {
   Chain(const ObservationFiles& observation, const SphereBeams& beams) : observation_(observation), beams_(beams) {}
 
   /// returns  one candidate in some pings
-  std::vector<std::pair<std::size_t, Candidate>> through(const std::vector<std::vector<Candidate>>& pings) const {
+  std::vector<std::pair<std::size_t, Candidate>> through(const std::vector<std::vector<Candidate>>& pings,
+                                                         const Work& work) const {
     constexpr double kGain = 6.0;  // for a ping in which the sphere is; a chance echo costs more than that to get to
     constexpr std::size_t kLongestGap = 10;
     struct Node {
@@ -155,7 +157,7 @@ class Chain {
     std::vector<Node> nodes;
     std::vector<std::size_t> first_of;
     std::ptrdiff_t best = -1;
-    for (std::size_t p = 0; p < pings.size(); ++p) {
+    for (std::size_t p = 0; p < pings.size() && !work.cancelled(); ++p) {
       first_of.push_back(nodes.size());
       const std::size_t from = p > kLongestGap ? first_of[p - kLongestGap] : 0;
       const std::size_t to = nodes.size();
@@ -163,6 +165,7 @@ class Chain {
         const double own = square((pings[p][c].over_ts_db - kExpected_db) / kSpread_db) - kGain;
         Node node{own, p, c, -1};
         for (std::size_t n = from; n < to; ++n) {
+          if (nodes[n].cost + own >= node.cost) continue;  // a step costs something
           const double gap = static_cast<double>(p - nodes[n].ping);
           const double cost = nodes[n].cost + own + step(pings[nodes[n].ping][nodes[n].index], pings[p][c], gap);
           if (cost < node.cost) node = {cost, p, c, static_cast<std::ptrdiff_t>(n)};
@@ -185,18 +188,40 @@ class Chain {
  private:
   double step(const Candidate& a, const Candidate& b, double gap) const {
     constexpr double kFar_m = 1.0;
-    constexpr double kAside = 0.1;  // rad
-    constexpr double kMost = 12.0;  // a new place costs two pings
+    constexpr double kAside = 0.1;       // rad
+    constexpr double kMostAside = 12.0;  // out of the beams and back elsewhere costs two pings; its line it keeps
     const FaceDirection& at = beams_.stated[static_cast<std::size_t>(a.row)].centre;
     const FaceDirection& to = beams_.stated[static_cast<std::size_t>(b.row)].centre;
     const double far = (b.sample - a.sample) * observation_.range.spacing_m / kFar_m;
     const double aside = std::hypot(to.across - at.across, to.up - at.up) / kAside;
-    return std::min(kMost, (far * far + aside * aside) / gap) + (gap - 1.0);
+    return far * far / gap + std::min(kMostAside, aside * aside / gap) + (gap - 1.0);
   }
 
   const ObservationFiles& observation_;
   const SphereBeams& beams_;
 };
+
+/// [ping] of one target; empty = not seen there.
+using Followed = std::vector<std::optional<Candidate>>;
+
+/// The sphere is not the only thing that stays: a fish may, or what the surface scatters.
+std::vector<Followed> chains_through(std::vector<std::vector<Candidate>> seen, const ObservationFiles& observation,
+                                     const SphereBeams& beams, const Work& work) {
+  constexpr std::size_t kMostTargets = 4;
+  constexpr std::size_t kLeastPings = 8;  // no beam is crossed in fewer
+  std::vector<Followed> chains;
+  while (chains.size() < kMostTargets) {
+    const auto chain = Chain(observation, beams).through(seen, work);
+    if (chain.size() < kLeastPings && !chains.empty()) break;
+    Followed& followed = chains.emplace_back(seen.size());
+    for (const auto& [ping, candidate] : chain) {
+      followed[ping] = candidate;
+      std::erase_if(seen[ping],
+                    [&](const Candidate& one) { return one.row == candidate.row && one.sample == candidate.sample; });
+    }
+  }
+  return chains;
+}
 
 /// Levels of all beams around the sphere in one ping.
 std::vector<SphereLevel> levels_of(const SphereAt& at, int sample, const PowerVolume& ping,
@@ -229,6 +254,13 @@ std::vector<SphereLevel> levels_of(const SphereAt& at, int sample, const PowerVo
   }
   return levels;
 }
+
+/// A target in one ping.
+struct Heard {
+  std::size_t chain;
+  SphereAt at;
+  std::vector<SphereLevel> levels;
+};
 
 /// Runs a job for each index on all threads. errors: the first index's; cancelled
 Result<void> for_each_read(std::int64_t count, Work& work, const std::function<Result<void>(std::size_t)>& job) {
@@ -273,9 +305,9 @@ SphereBeams sphere_beams(const ObservationFiles& observation, const CalibrationP
   return out;
 }
 
-Result<SphereTrack> find_sphere(const SurveyFiles& survey, const ObservationFiles& observation,
-                                const SphereBeams& beams, const CalibrationParams& calibration,
-                                const SphereRunParams& params, Work& work) {
+Result<std::vector<SphereTrack>> find_targets(const SurveyFiles& survey, const ObservationFiles& observation,
+                                              const SphereBeams& beams, const CalibrationParams& calibration,
+                                              const SphereRunParams& params, Work& work) {
   const Finder finder(observation, beams, params);
   const auto pings = static_cast<std::int64_t>(observation.pings.size());
   std::vector<std::vector<Candidate>> seen(observation.pings.size());
@@ -286,25 +318,35 @@ Result<SphereTrack> find_sphere(const SurveyFiles& survey, const ObservationFile
     return {};
   });
   if (!looked) return pass_on(looked);
-  const auto chain = Chain(observation, beams).through(seen);
-  SphereTrack track;
-  track.at.resize(chain.size());
-  std::vector<std::vector<SphereLevel>> levels(chain.size());
-  const auto measured =
-      for_each_read(static_cast<std::int64_t>(chain.size()), work, [&](std::size_t i) -> Result<void> {
-        const auto& [index, candidate] = chain[i];
-        const auto ping = load_volume(survey, observation, index);
-        if (!ping) return pass_on(ping);
-        const PointEcho echo =
-            point_echo(ping->volume.counts.view().row(candidate.row), candidate.sample, finder.half());
-        track.at[i] = {index, candidate.row, observation.range.range_m(echo.centre_sample)};
-        levels[i] = levels_of(track.at[i], static_cast<int>(std::lround(echo.centre_sample)), *ping, observation, beams,
-                              calibration, finder.half());
-        return {};
-      });
+  const std::vector<Followed> chains = chains_through(std::move(seen), observation, beams, work);
+  std::vector<std::vector<Heard>> heard(observation.pings.size());
+  const auto measured = for_each_read(pings, work, [&](std::size_t p) -> Result<void> {
+    if (std::none_of(chains.begin(), chains.end(), [&](const Followed& chain) { return chain[p].has_value(); })) {
+      return {};
+    }
+    const auto ping = load_volume(survey, observation, p);
+    if (!ping) return pass_on(ping);
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+      if (!chains[c][p]) continue;
+      const Candidate& candidate = *chains[c][p];
+      const PointEcho echo = point_echo(ping->volume.counts.view().row(candidate.row), candidate.sample, finder.half());
+      const SphereAt at{p, candidate.row, observation.range.range_m(echo.centre_sample)};
+      heard[p].push_back({c, at,
+                          levels_of(at, static_cast<int>(std::lround(echo.centre_sample)), *ping, observation, beams,
+                                    calibration, finder.half())});
+    }
+    return {};
+  });
   if (!measured) return pass_on(measured);
-  for (auto& some : levels) track.levels.insert(track.levels.end(), some.begin(), some.end());
-  return track;
+  std::vector<SphereTrack> tracks(chains.size());
+  for (const auto& in_ping : heard) {
+    for (const Heard& one : in_ping) {
+      SphereTrack& track = tracks[one.chain];
+      track.at.push_back(one.at);
+      track.levels.insert(track.levels.end(), one.levels.begin(), one.levels.end());
+    }
+  }
+  return tracks;
 }
 
 }  // namespace sonar

@@ -55,13 +55,16 @@ struct SphereTrack {
   std::vector<SphereLevel> levels;  ///< of all beams around it
 };
 
-/// Finds the sphere through the pings of an observation: of all echoes that are as short as the pulse, as narrow as a beam
-/// and about as strong as the sphere, the chain that changes its range and direction least. Fish come and go, drift and
-/// differ in strength.
+/// Finds what may be the sphere through the pings of an observation: of all echoes that are as short as the pulse, as narrow
+/// as a beam and about as strong as the sphere, the chain that changes its range and direction least; then the same of those
+/// that are left. Fish come and go, drift and differ in strength, but one may stay for long.
+/// returns  likeliest first, one at least
 /// errors   io, format, cancelled
 /// threads  pings are read in parallel; the result does not depend on it
-[[nodiscard]] Result<SphereTrack> find_sphere(const SurveyFiles& survey, const ObservationFiles& observation,
-                                              const SphereBeams& beams, const CalibrationParams& calibration,
-                                              const SphereRunParams& params, Work& work);
+[[nodiscard]] Result<std::vector<SphereTrack>> find_targets(const SurveyFiles& survey,
+                                                            const ObservationFiles& observation,
+                                                            const SphereBeams& beams,
+                                                            const CalibrationParams& calibration,
+                                                            const SphereRunParams& params, Work& work);
 
 }  // namespace sonar
