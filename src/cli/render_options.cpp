@@ -47,7 +47,7 @@ void add_common(CLI::App& verb, RenderArguments& a) {
     a.suits.push_back({option->get_name(), kinds});
   };
   suits(verb.add_option("--observation", a.observation,
-                        "Observation to draw, e.g. obs-0001; default: the first, and of a chart all")
+                        "Observation to draw, e.g. obs-0001; default: the first with schools, and of a chart all")
             ->check(some_name()),
         "slice- volume propagation observation-map timeline echogram chart frequency curves noise-steps lineage movie");
   suits(verb.add_option("--ping", a.picture.ping,

@@ -228,7 +228,8 @@ std::string MainWindow::layout() const {
 void MainWindow::take_layout(const std::string& layout) {
   const QList<QByteArray> parts = QByteArray::fromStdString(layout).split(' ');
   if (parts.size() != 2) return;
-  restoreGeometry(QByteArray::fromBase64(parts[0]));
+  // Of a screen of another size neither is taken: a laptop's arrangement leaves a large screen's views small.
+  if (!restoreGeometry(QByteArray::fromBase64(parts[0]))) return;
   restoreState(QByteArray::fromBase64(parts[1]), kLayoutVersion);
 }
 

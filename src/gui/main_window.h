@@ -31,7 +31,7 @@ class MainWindow : public QMainWindow {
 
   /// Docks and size as text, for the preferences.
   [[nodiscard]] std::string layout() const;
-  /// What layout() gave; anything else changes nothing.
+  /// What layout() gave on a screen of about this size; anything else changes nothing.
   void take_layout(const std::string& layout);
 
  protected:

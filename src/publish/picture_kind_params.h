@@ -112,14 +112,14 @@ void describe(Visitor& v, PropagationParams& p) {
 struct TimelineParams {
   bool whole_survey = false;
   bool along_log = false;
-  bool maximum = false;
+  bool maximum = true;  ///< as the window's timelines; off = the mean over beams
 };
 
 template <class Visitor>
 void describe(Visitor& v, TimelineParams& p) {
   v.field("whole_survey", p.whole_survey, {.text = "all observations, not one alone"});
   v.field("along_log", p.along_log, {.text = "against the vessel's log instead of time", .suits = "timeline echogram"});
-  v.field("maximum", p.maximum, {.text = "the maximum over beams instead of the mean"});
+  v.field("maximum", p.maximum, {.text = "draw the maximum over beams"});
 }
 
 struct EchogramParams {

@@ -8,6 +8,7 @@
 
 #include "io/product_file.h"
 #include "io/recordings.h"
+#include "model/school_totals.h"
 #include "pipeline/score/agree.h"
 #include "pipeline/stages/observe.h"
 #include "pipeline/tasks/join_tracks.h"
@@ -243,7 +244,12 @@ Result<void> PictureSource::require_outside_raw(const fs::path& file) const {
 
 Result<DrawnObservation*> PictureSource::observation(std::string_view name) {
   if (observations_.empty()) return fail(ErrorCode::usage, "nothing to draw: no schools are known yet");
-  if (name.empty()) return &observations_.front();
+  if (name.empty()) {
+    const auto with_schools = std::find_if(observations_.begin(), observations_.end(), [](const auto& observation) {
+      return school_count(observation.product()) > 0;
+    });
+    return with_schools != observations_.end() ? &*with_schools : &observations_.front();
+  }
   std::string known;
   for (DrawnObservation& observation : observations_) {
     if (observation.name() == name) return &observation;

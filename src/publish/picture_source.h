@@ -112,7 +112,7 @@ class PictureSource {
   [[nodiscard]] const Recipe& recipe() const { return recipe_; }
   /// errors  usage: the file would lie in the folder of a raw file, be it drawn or what the products were made of
   [[nodiscard]] Result<void> require_outside_raw(const std::filesystem::path& file) const;
-  /// Empty name = the only one, or the first. errors: usage, naming those that there are
+  /// Empty name = the first that has schools, else the first. errors: usage, naming those that there are
   [[nodiscard]] Result<DrawnObservation*> observation(std::string_view name);
 
  private:

@@ -386,7 +386,7 @@ class Files(sonarx.Case):
         """A beam's own Sv, as in slices; the mean over all of them is weaker."""
         same = sonarx.WORK / "limits.png"
         self.assertEqual(render("timeline", *BOTH, *SIZE, "--maximum", "--low-db", "-60", "--out", same)[0], 0)
-        for options, code in ((["--maximum"], 0), (["--maximum", "--low-db", "-75"], 1), ([], 1)):
+        for options, code in ((["--maximum"], 0), ([], 0), (["--low-db", "-75"], 1), (["--no-maximum"], 1)):
             self.assertEqual(render("timeline", *BOTH, *SIZE, *options, "--reference", same,
                                     "--largest-difference", 0, "--mean-difference", 0)[0], code, options)
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <QScreen>
+#include <QtEndian>
 #include <map>
 #include <set>
 #include <utility>
@@ -50,6 +51,28 @@ TEST_F(Docks, TheVolumeIsTheSameAfterItsDockFloatedAndCameBack) {
   ASSERT_EQ(view("volume")->size(), size);
   EXPECT_EQ(app_->picture("volume")->image(), before);
   EXPECT_EQ(view("volume")->grab().toImage(), seen);
+}
+
+// A laptop's arrangement is not a large screen's.
+TEST_F(Docks, ALayoutOfAScreenOfAnotherSizeIsNotTaken) {
+  dock("top_slice")->close();
+  const std::string closed = window_->layout();
+  const auto taken_of_a_screen = [&](int half_screens) {
+    dock("top_slice")->show();
+    settle();
+    QByteArray geometry = QByteArray::fromBase64(QByteArray::fromStdString(closed).split(' ').at(0));
+    // QWidget::saveGeometry(): two numbers of format and version, two rectangles, screen, two flags, width of the screen.
+    constexpr qsizetype kWidthAt = 8 + 32 + 4 + 2;
+    const auto width = qFromBigEndian<qint32>(geometry.constData() + kWidthAt);
+    EXPECT_EQ(width, window_->screen()->geometry().width());
+    qToBigEndian<qint32>(width * half_screens / 2, geometry.data() + kWidthAt);
+    window_->take_layout((geometry.toBase64() + " ").toStdString() + closed.substr(closed.find(' ') + 1));
+    settle();
+    return dock("top_slice")->isHidden();
+  };
+  EXPECT_FALSE(taken_of_a_screen(1));
+  EXPECT_TRUE(taken_of_a_screen(2));
+  EXPECT_FALSE(taken_of_a_screen(4));
 }
 
 TEST_F(Docks, EveryViewThatIsOffComputesNothing) {

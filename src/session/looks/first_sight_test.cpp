@@ -40,6 +40,33 @@ TEST_F(FirstSightOfASurvey, IsThePingOfTheStrongestWholeSchool) {
   EXPECT_EQ(here, most);
 }
 
+TEST_F(FirstSightOfASurvey, IsInTheFirstObservationThatHasSchools) {
+  begin();
+  ASSERT_TRUE(document().show(1, 2));
+  document().settle();
+  paint(4, 4, 5, 5, 200, 6, 30);
+  document().settle();
+  open_again();  // another user, who was nowhere yet
+  EXPECT_EQ(document().shown()->index(), 1U);
+  EXPECT_EQ(document().ping(), 4);
+  ASSERT_TRUE(workspace().school());
+  EXPECT_EQ(*workspace().school(), (SchoolName{1, 1}));
+}
+
+TEST_F(FirstSightOfASurvey, IsNoOtherObservationThanTheOneThatItsUserLeft) {
+  begin();
+  ASSERT_TRUE(document().show(1, 2));
+  document().settle();
+  paint(4, 4, 5, 5, 200, 6, 30);
+  document().settle();
+  app_->preferences = {};
+  app_->preferences.set_left_at({TestSurvey::easy().folder()}, "obs-0001", 0);
+  document().open({TestSurvey::easy().folder()});
+  document().settle();
+  EXPECT_EQ(document().shown()->index(), 0U);
+  EXPECT_EQ(document().ping(), 0);
+}
+
 TEST_F(FirstSightOfASurvey, WhatIsRejectedIsNone) {
   begin();
   paint(3, 3, 5, 5, 200);

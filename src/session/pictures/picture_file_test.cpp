@@ -217,12 +217,12 @@ TEST_F(PictureFile, OfATimelineMayBeOfTheWholeSurveyAgainstTheLog) {
   answer([](ParameterSource& source) {
     (void)source.set("timeline.whole_survey", true);
     (void)source.set("timeline.along_log", true);
-    (void)source.set("timeline.maximum", true);
+    (void)source.set("timeline.maximum", false);
   });
   EXPECT_TRUE(made("timeline")) << told();
   const auto options = picture_options(workspace(), PictureKind::timeline);
   const TimelineParams& timeline = options->kind.timeline;
-  EXPECT_TRUE(timeline.whole_survey && timeline.along_log && timeline.maximum);
+  EXPECT_TRUE(timeline.whole_survey && timeline.along_log && !timeline.maximum);
 }
 
 TEST_F(PictureFile, AMovieIsAskedForItsPace) {

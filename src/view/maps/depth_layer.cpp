@@ -80,9 +80,7 @@ void add_label(FrameDescription& frame, const std::vector<PixelPoint>& line, con
     const bool free = std::none_of(taken.begin(), taken.end(), [&](const PixelPoint& t) {
       return std::hypot(t.x - middle.x, t.y - middle.y) < 6.0 * theme.text_px;
     });
-    const bool under_scale = middle.x < map.place.x + 24.0 * theme.text_px &&
-                             middle.y > map.place.y + map.place.height - 4.5 * theme.text_px;
-    if (!inside || !free || under_scale || cost >= best) continue;
+    if (!inside || !free || cost >= best) continue;
     best = cost;
     place = middle;
     turned = std::atan2(b.y - a.y, b.x - a.x) * (180.0 / std::numbers::pi);

@@ -119,6 +119,27 @@ TEST(ScaleBar, IsTrueWithinHalfAPercentAtItsPlace) {
   EXPECT_EQ(scale_bar(fit_map({60.0, 60.5, 4.0, 5.5}, kPlace), {70.0, 600.0}, 180.0, true).text, "10 nmi");
 }
 
+// Lower left, lower right, upper left: the first that hides fewest symbols, then least else.
+TEST(ScaleBar, StandsInTheCornerThatHidesLeast) {
+  const MapFrame map = fit_map({60.0, 60.5, 4.0, 5.5}, kPlace);
+  const Theme theme = light_theme({640, 480});
+  const double em = theme.text_px;
+  const PixelPoint lower_left{map.place.x + 2.0 * em, map.place.y + map.place.height - 2.0 * em};
+  const PixelPoint lower_right{map.place.x + map.place.width - 2.0 * em, lower_left.y};
+  const PixelPoint upper_left{lower_left.x, map.place.y + 2.0 * em};
+  using Points = std::vector<PixelPoint>;
+  const auto stands_over = [&](const PixelPoint& corner, const Points& symbols, const Points& besides) {
+    const auto bars = scale_bars(map, theme, symbols, besides);
+    return bars && inside(bars->place, corner);
+  };
+  EXPECT_TRUE(stands_over(lower_left, {}, {}));
+  EXPECT_TRUE(stands_over(lower_right, {}, {lower_left}));
+  EXPECT_TRUE(stands_over(upper_left, {lower_left}, {lower_right}));
+  EXPECT_TRUE(stands_over(upper_left, {lower_left, lower_right}, {}));
+  EXPECT_TRUE(stands_over(lower_left, {lower_right, upper_left}, {lower_left}));
+  EXPECT_TRUE(stands_over(lower_left, {lower_left, lower_right, upper_left}, {}));
+}
+
 TEST(MapFrame, ShowsAllMeridiansWhereThePoleIsInThePicture) {
   const GeoExtent e = shown_extent(fit_map({88.5, 90.0, -180.0, 180.0}, kPlace));
   EXPECT_EQ(e.north_deg, 90.0);

@@ -78,6 +78,23 @@ void add_current(FrameDescription& frame, const ObservationMapBase& base, const 
   frame.items.emplace_back(ship_item(*at, length, turned, theme.ship, theme.background, theme.line_px));
 }
 
+/// Off the ship, and off the water that the beams reached, where schools lie.
+void place_scale(ObservationMapBase& base, const std::vector<PingNavigation>& pings) {
+  std::vector<PixelPoint> ship;
+  std::vector<PixelPoint> water;
+  for (std::size_t i = 0; i < pings.size(); ++i) {
+    const auto at = pings[i].has_position() ? base.map.at(pings[i].transducer) : std::nullopt;
+    if (!at) continue;
+    ship.push_back(*at);
+    for (const PixelPoint& edge : base.footprints[i]) {
+      for (const double t : {0.4, 0.7, 1.0}) {
+        water.push_back({at->x + t * (edge.x - at->x), at->y + t * (edge.y - at->y)});
+      }
+    }
+  }
+  base.scale = scale_bars(base.map, base.theme, ship, water);
+}
+
 }  // namespace
 
 Result<ObservationMapBase> observation_map_base(const ObservationProduct& product, PixelSize size, const Theme& theme,
@@ -128,11 +145,6 @@ Result<ObservationMapBase> observation_map_base(const ObservationProduct& produc
   const auto first = std::find_if(product.pings.begin(), product.pings.end(),
                                   [](const PingNavigation& n) { return n.has_position(); });
   if (first != product.pings.end()) base.start = base.map.at(first->transducer);
-  std::vector<PixelPoint> ship;
-  for (const PingNavigation& n : product.pings) {
-    if (const auto at = n.has_position() ? base.map.at(n.transducer) : std::nullopt) ship.push_back(*at);
-  }
-  base.scale = scale_bars(base.map, theme, ship);
   base.footprints.resize(product.pings.size());
   std::vector<PlanePoint> corners;
   for (std::size_t i = 0; i < rings.size(); ++i) {
@@ -142,6 +154,7 @@ Result<ObservationMapBase> observation_map_base(const ObservationProduct& produc
     }
   }
   for (const PlanePoint& p : convex_hull(std::move(corners))) base.hull.push_back(base.map.at(p));
+  place_scale(base, product.pings);
   return base;
 }
 
@@ -201,9 +214,12 @@ FrameDescription observation_map(const ObservationMapBase& base, const Observati
   if (current && *current < product.pings.size()) {
     ping = fmt::format(" · ping {} at {}", *current, clock_text(product.pings[*current].time, true).substr(11));
   }
-  std::string line = count + " · " + span + ping;
-  // In a narrow map the observation's time goes first: its days stand in the survey's list.
-  if (text_width_px(line.c_str(), theme.text_px) > frame.size.width - base.map.place.x) line = count + ping;
+  // In a narrow map the observation's time goes first, for its days stand in the survey's list, then the ping's.
+  std::string line;
+  for (const std::string& told_whole : {count + " · " + span + ping, count + ping, count}) {
+    line = told_whole;
+    if (text_width_px(line.c_str(), theme.text_px) <= frame.size.width - base.map.place.x) break;
+  }
   Layout layout;
   const double em = theme.text_px;
   layout.title = {base.map.place.x, 0.9 * em, base.map.place.width, base.map.place.y - em};

@@ -26,10 +26,9 @@ ScaleBars bars_at(const MapFrame& map, const Theme& theme, PixelPoint corner) {
   return made;
 }
 
-/// Of symbols about those places, which are up to twice as long as the text is high.
-std::ptrdiff_t hidden(const PixelRect& place, std::span<const PixelPoint> shown, double em) {
-  const PixelRect wide{place.x - em, place.y - em, place.width + 2.0 * em, place.height + 2.0 * em};
-  return std::count_if(shown.begin(), shown.end(), [&](const PixelPoint& at) { return inside(wide, at); });
+std::ptrdiff_t count_inside(const PixelRect& place, double margin, std::span<const PixelPoint> points) {
+  const PixelRect wide{place.x - margin, place.y - margin, place.width + 2.0 * margin, place.height + 2.0 * margin};
+  return std::count_if(points.begin(), points.end(), [&](const PixelPoint& at) { return inside(wide, at); });
 }
 
 }  // namespace
@@ -48,23 +47,27 @@ ScaleBar scale_bar(const MapFrame& map, PixelPoint left, double most_px, bool na
   return bar;
 }
 
-std::optional<ScaleBars> scale_bars(const MapFrame& map, const Theme& theme, std::span<const PixelPoint> shown) {
+std::optional<ScaleBars> scale_bars(const MapFrame& map, const Theme& theme, std::span<const PixelPoint> symbols,
+                                    std::span<const PixelPoint> else_shown) {
   const double em = theme.text_px;
   if (map.place.height < kLeastMap_em * em) return std::nullopt;
   const double gap = 0.6 * em;
   const PixelRect& r = map.place;
   const double low = r.y + r.height - 2.9 * em;
-  ScaleBars best = bars_at(map, theme, {r.x + gap, low});
-  std::ptrdiff_t least = hidden(best.place, shown, em);
+  const double right = r.x + r.width - gap - bars_at(map, theme, {r.x + gap, low}).place.width;
+  std::optional<ScaleBars> best;
+  std::pair<std::ptrdiff_t, std::ptrdiff_t> least;
   // The upper right corner is the arrow's.
-  for (const PixelPoint corner : {PixelPoint{r.x + r.width - gap - best.place.width, low}, {r.x + gap, r.y + gap}}) {
-    if (least == 0) break;
-    ScaleBars other = bars_at(map, theme, corner);
-    const std::ptrdiff_t hides = hidden(other.place, shown, em);
-    if (hides < least) {
-      least = hides;
-      best = std::move(other);
-    }
+  for (const PixelPoint corner : {PixelPoint{r.x + gap, low}, {right, low}, {r.x + gap, r.y + gap}}) {
+    ScaleBars bars = bars_at(map, theme, corner);
+    // Another place of the map may have a longer round length.
+    const double over = bars.place.x + bars.place.width - (r.x + r.width - gap);
+    if (over > 0.0) bars = bars_at(map, theme, {corner.x - over, corner.y});
+    // A symbol is up to twice as long as the text is high.
+    const std::pair hides(count_inside(bars.place, em, symbols), count_inside(bars.place, 0.0, else_shown));
+    if (best && hides >= least) continue;
+    least = hides;
+    best = std::move(bars);
   }
   return best;
 }

@@ -28,11 +28,13 @@ struct ScaleBars {
   std::array<ScaleBar, 2> bars;
   PixelRect place;  ///< what they cover of the map
 };
-/// In the lower left, lower right or upper left corner of the map, the first that hides fewest of the given places;
-/// empty in a map so low that they would cover a quarter of it and more.
-/// shown  where the map has symbols: of the ship at any ping, of starts, of schools
+/// In the lower left, lower right or upper left corner of the map, the first that hides fewest symbols, and of those the one
+/// that hides least else; empty in a map so low that they would cover a quarter of it and more.
+/// symbols  where the ship may stand, starts, schools
+/// else_shown  places all over what the map shows besides
 [[nodiscard]] std::optional<ScaleBars> scale_bars(const MapFrame& map, const Theme& theme,
-                                                  std::span<const PixelPoint> shown);
+                                                  std::span<const PixelPoint> symbols,
+                                                  std::span<const PixelPoint> else_shown = {});
 void add_scale_bars(FrameDescription& frame, const ScaleBars& bars, const Theme& theme);
 
 /// An arrow in the map's upper right corner where north is not up: over 1 degree off somewhere.

@@ -248,6 +248,11 @@ Result<FrameDescription> survey_map(std::span<const ObservationProduct> observat
   if (style.names && observations.size() <= kMostNames) names = start_names(d, observations, ship);
   std::vector<PixelPoint> taken;
   for (const TextItem& name : names.names) taken.push_back(name.at);
+  if (d.scale) {
+    const PixelRect& box = d.scale->place;
+    for (double x = box.x; x < box.x + box.width + d.em; x += 5.0 * d.em)
+      taken.push_back({x, box.y + box.height / 2.0});
+  }
   if (depths != nullptr) bands = add_depth_layer(frame, map, *depths, theme, taken);
   frame.items.emplace_back(ClipItem{map.place});
   bool schools = false;

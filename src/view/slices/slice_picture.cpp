@@ -26,14 +26,17 @@ PlotFrame slice_axes(const PixelRect& place, const SliceExtent& extent) {
   return plot;
 }
 
-/// Distances to either side of the ship, the bow up, without a sign; named is a side that has a number.
+/// Distances to either side of the ship, the bow up, without a sign; named is a side that has a number, and where only 0
+/// stands on the axis the longer one.
 void label_sides(PlotFrame& plot, const Theme& theme) {
   const auto named = [&](const char* sides) { return length_axis(plot.x.first, plot.x.last, sides, theme); };
   plot.x = named("port | starboard");
   const std::vector<double> numbers = x_ticks(plot, theme).major;
-  const bool port = numbers.empty() || numbers.front() < 0.0;
-  const bool starboard = numbers.empty() || numbers.back() > 0.0;
-  if (port != starboard) plot.x = named(port ? "port" : "starboard");
+  const bool port = !numbers.empty() && numbers.front() < 0.0;
+  const bool starboard = !numbers.empty() && numbers.back() > 0.0;
+  if (!port || !starboard) {
+    plot.x = named(port || (!starboard && plot.x.first + plot.x.last < 0.0) ? "port" : "starboard");
+  }
   plot.x.both_ways = true;
 }
 
