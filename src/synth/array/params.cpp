@@ -33,7 +33,7 @@ Result<void> check(const ArrayParams& p) {
 ArrayParams sphere_run() {
   ArrayParams p;
   p.observations = 1;
-  p.pings = 1500;
+  p.pings = 300;
   p.schools = 0;
   p.waters = Waters::stated;
   p.speed_knots = 0.0;
@@ -42,6 +42,11 @@ ArrayParams sphere_run() {
   p.elements.gain_error_db = 0.5;
   p.elements.sa_error_db = 0.1;
   p.sphere.diameter_mm = 38.1;
+  // Some 60 beams, which so many pings cross.
+  p.sphere.elevation_from_deg = -20.0;
+  p.sphere.elevation_to_deg = -5.0;
+  p.sphere.azimuth_from_deg = -12.0;
+  p.sphere.azimuth_to_deg = 12.0;
   Company& c = p.company;
   c.hull_bubbles = c.plumes = c.surface = c.layers = c.seabed = c.other_sounders = c.refraction = c.unsteady = 0.0;
   c.single_fish = 0.3;

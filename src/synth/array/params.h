@@ -283,7 +283,7 @@ void describe(Visitor& v, ArrayParams& p) {
 [[nodiscard]] Result<void> check(const ArrayParams& params);
 
 /// A run for calibration: a ship at anchor in quiet water without schools, a sphere of tungsten carbide of 38.1 mm that is
-/// steered through all beams, and stated gains and sa corrections that err.
+/// steered through some 60 beams, and stated gains and sa corrections that err.
 [[nodiscard]] ArrayParams sphere_run();
 
 /// The other scatterers of one observation: as stated, or drawn from the seed, each kind absent in three waters of ten.
