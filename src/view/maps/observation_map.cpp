@@ -216,7 +216,7 @@ FrameDescription observation_map(const ObservationMapBase& base, const Observati
   }
   // In a narrow map the observation's time goes first, for its days stand in the survey's list, then the ping's.
   std::string line;
-  for (const std::string& told_whole : {count + " · " + span + ping, count + ping, count}) {
+  for (const std::string& told_whole : {fmt::format("{} · {}{}", count, span, ping), count + ping, count}) {
     line = told_whole;
     if (text_width_px(line.c_str(), theme.text_px) <= frame.size.width - base.map.place.x) break;
   }
