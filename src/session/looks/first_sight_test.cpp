@@ -15,6 +15,13 @@ class FirstSightOfASurvey : public testing::Test, protected TestApp {
     begin();
     document().settle();
   }
+  /// A school in the second observation alone, in its ping 4.
+  void paint_in_the_second() {
+    ASSERT_TRUE(document().show(1, 2));
+    document().settle();
+    paint(4, 4, 5, 5, 200, 6, 30);
+    document().settle();
+  }
 };
 
 TEST_F(FirstSightOfASurvey, IsThePingOfTheStrongestWholeSchool) {
@@ -42,10 +49,7 @@ TEST_F(FirstSightOfASurvey, IsThePingOfTheStrongestWholeSchool) {
 
 TEST_F(FirstSightOfASurvey, IsInTheFirstObservationThatHasSchools) {
   begin();
-  ASSERT_TRUE(document().show(1, 2));
-  document().settle();
-  paint(4, 4, 5, 5, 200, 6, 30);
-  document().settle();
+  paint_in_the_second();
   open_again();  // another user, who was nowhere yet
   EXPECT_EQ(document().shown()->index(), 1U);
   EXPECT_EQ(document().ping(), 4);
@@ -55,10 +59,7 @@ TEST_F(FirstSightOfASurvey, IsInTheFirstObservationThatHasSchools) {
 
 TEST_F(FirstSightOfASurvey, IsNoOtherObservationThanTheOneThatItsUserLeft) {
   begin();
-  ASSERT_TRUE(document().show(1, 2));
-  document().settle();
-  paint(4, 4, 5, 5, 200, 6, 30);
-  document().settle();
+  paint_in_the_second();
   app_->preferences = {};
   app_->preferences.set_left_at({TestSurvey::easy().folder()}, "obs-0001", 0);
   document().open({TestSurvey::easy().folder()});
