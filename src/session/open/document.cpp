@@ -124,7 +124,7 @@ void Document::post(const CancelToken& token, std::function<void()> change) {
   });
 }
 
-void Document::run(std::function<void(Work&, const CancelToken&)> job, OpeningPtr opening) {
+void Document::run(std::function<void(Work&, const CancelToken&)> job, const OpeningPtr& opening) {
   cancel();
   opening_ = opening;
   work_ = std::make_shared<Work>(options_.threads);
@@ -195,7 +195,7 @@ void Document::read(Opening what) {
                       : std::map<std::size_t, OtherFind>{};
     post(token, [this, asked, opening,
                  read = SurveyRead{recipe, files, opening->paths, raw_of(*named), named->work_folders, found,
-                                   std::move(others), place, survey->products}] {
+                                   std::move(others), place, survey->products, opening->recipe_before}] {
       if (opening_ != opening) return;  // something else was asked for since
       if (asked == asked_recipe_) asked_recipe_.reset();
       take(read, opening->back_to);
@@ -272,13 +272,12 @@ void Document::take(SurveyRead read, const std::optional<std::pair<std::size_t, 
 }
 
 void Document::use_recipe(Recipe recipe) {
-  if (survey() != nullptr) recipe_before_ = this->recipe();
   asked_recipe_ = std::make_shared<const Recipe>(std::move(recipe));
   if (opening_) return read(*opening_);
   if (survey() == nullptr) return;
   std::optional<std::pair<std::size_t, std::int64_t>> back_to;
   if (shown()) back_to = {shown()->index(), ping()};
-  read({survey()->raw_gone.empty() ? paths() : named(), {}, back_to});
+  read({survey()->raw_gone.empty() ? paths() : named(), {}, back_to, this->recipe()});
 }
 
 Result<void> Document::use_named_recipe(const std::string& path_or_preset) {

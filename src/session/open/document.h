@@ -75,15 +75,14 @@ class Document {
   /// as it made them, with its figures as long as nothing but decisions is changed.
   /// first  done before, in the background too: what makes the files, say; empty = nothing
   void open(std::vector<std::filesystem::path> paths, std::function<Result<void>(Work&)> first = {}) {
-    recipe_before_.reset();
-    read({std::move(paths), std::move(first), std::nullopt});
+    read({std::move(paths), std::move(first), std::nullopt, std::nullopt});
   }
   /// Opens the survey under another recipe, and keeps that beside its journals; before one is open, the next.
   void use_recipe(Recipe recipe);
   /// errors  as named_recipe()
   Result<void> use_named_recipe(const std::string& path_or_preset);
   /// Of the survey that is open, before use_recipe() last changed it: what takes that back. Empty = it was not changed.
-  [[nodiscard]] const std::optional<Recipe>& recipe_before() const { return recipe_before_; }
+  [[nodiscard]] const std::optional<Recipe>& recipe_before() const { return survey_->read_.recipe_before; }
   /// Takes the survey with what came since; what is looked at and what was chosen stays. False, and nothing is taken, where
   /// it is not the same survey with more pings and observations behind.
   bool grow(std::shared_ptr<const SurveyFiles> survey) { return survey_->grow(std::move(survey)); }
@@ -218,11 +217,12 @@ class Document {
     std::vector<std::filesystem::path> paths;
     std::function<Result<void>(Work&)> first;                     ///< what must be done before; may be empty
     std::optional<std::pair<std::size_t, std::int64_t>> back_to;  ///< see OpenSurvey::begin()
+    std::optional<Recipe> recipe_before;                          ///< see SurveyRead
   };
   using OpeningPtr = std::shared_ptr<const Opening>;
   void read(Opening opening);
   /// opening  that the job is; null = another job, and what was being read is read no more
-  void run(std::function<void(Work&, const CancelToken&)> job, OpeningPtr opening);
+  void run(std::function<void(Work&, const CancelToken&)> job, const OpeningPtr& opening);
   void glance_at(const std::vector<std::filesystem::path>& paths, const Recipe& recipe, Work& work,
                  const CancelToken& token);
   [[nodiscard]] Result<JournalPlace> placed(const NamedToOpen& named, const std::vector<std::filesystem::path>& folders,
@@ -238,7 +238,6 @@ class Document {
   DocumentOptions options_;
   OpeningPtr opening_;                          ///< null = nothing is being read
   std::shared_ptr<const Recipe> asked_recipe_;  ///< that the next survey is opened under
-  std::optional<Recipe> recipe_before_;
   Listeners<DocumentChange> changes_;
   std::shared_ptr<const SurveyFiles> glance_;
   std::vector<std::string> notices_;

@@ -62,6 +62,7 @@ struct SurveyRead {
   Result<JournalPlace> place = JournalPlace{};
   /// [observation] of results whose raw files are not here (SurveyFiles::raw_gone); empty = pings can be read.
   std::vector<ProductPtr> products{};
+  std::optional<Recipe> recipe_before{};  ///< that the survey was open under until Document::use_recipe(); empty = none
 };
 
 /// One survey at work, from its opening until another takes its place: what is read and chosen of it, looked at and

@@ -81,7 +81,13 @@ TEST_F(SetupPages, AChangedRecipeIsTakenBackAndBroughtAgain) {
   press("file.recipe_before");
   document().settle();
   EXPECT_EQ(document().recipe().navigation.mounting_azimuth_deg, was - 3.0);
+  document().use_recipe(recipe);
+  document().cancel();
+  document().settle();
+  EXPECT_EQ(document().recipe_before()->navigation.mounting_azimuth_deg, was)
+      << "a change that was ended changed nothing";
   document().open(std::vector(document().paths()));
+  document().settle();
   EXPECT_FALSE(document().recipe_before()) << "of another opening";
 }
 
