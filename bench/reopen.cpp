@@ -130,7 +130,7 @@ Opening open(const Case& survey) {
   slice.set_seen(true);
   // Pictures before that moment were asked for without the schools.
   std::optional<std::int64_t> without;
-  document.changes().add([&](DocumentChange) {
+  const Listening heard_of(document.changes(), [&](DocumentChange) {
     if (!shows_a_school(document)) {
       without.reset();
     } else if (!without) {

@@ -45,8 +45,8 @@ BatchTable::BatchTable(Batch& batch, QWidget* parent) : QTreeView(parent), rows_
   setTextElideMode(Qt::ElideMiddle);
   header()->setStretchLastSection(true);
   setItemDelegateForColumn(static_cast<int>(BatchRows::Column::progress), new ProgressDelegate(this));
-  rows_.changed().add([this] { follow(); });
-  rows_.moved().add([this] { model_.refresh(); });
+  listening_.to(rows_.changed(), [this] { follow(); });
+  listening_.to(rows_.moved(), [this] { model_.refresh(); });
   fit_columns();
 }
 

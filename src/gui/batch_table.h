@@ -6,6 +6,7 @@
 
 #include "gui/rows_model.h"
 #include "session/batch/batch_rows.h"
+#include "session/listening.h"
 
 namespace sonar {
 
@@ -24,6 +25,7 @@ class BatchTable : public QTreeView {
 
   BatchRows rows_;
   RowsModel model_;
+  Listening listening_;  // the last member: it ends first
 };
 
 }  // namespace sonar

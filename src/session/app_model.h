@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "session/actions.h"
+#include "session/listening.h"
 #include "session/live/live_picture.h"
 #include "session/looks/transfer_editor.h"
 #include "session/open/workspace.h"
@@ -82,6 +83,7 @@ class AppModel {
   std::shared_ptr<KeptThumbnails> thumbnails;
   std::unique_ptr<TransferEditor> transfer;  ///< on top of the control panel
   std::vector<PanelSection> panel;
+  Listening listening;  ///< of whatever is composed here; the last member: it ends first
 
   /// Null where there is none of that id.
   [[nodiscard]] LivePicture* picture(const std::string& id);

@@ -8,23 +8,13 @@
 
 namespace sonar {
 
-/// Those who want to hear of something; each is called in the order in which it came. Whoever lives as long as what it
-/// listens to is added; anybody else has a Listening.
+/// Those who want to hear of something, each by a Listening; they are called in the order in which they came.
 /// threads  the window's
 template <class... What>
 class Listeners {
  public:
   using Listener = std::function<void(What...)>;
 
-  /// For as long as these are.
-  void add(Listener listener) { for_good_.push_back(listen(std::move(listener))); }
-  /// For as long as what comes back is kept, which may be longer than these are.
-  [[nodiscard]] std::shared_ptr<const void> listen(Listener listener) {
-    std::erase_if(listeners_, [](const auto& one) { return one.expired(); });
-    auto kept = std::make_shared<const Listener>(std::move(listener));
-    listeners_.push_back(kept);
-    return kept;
-  }
   void tell(What... what) const {
     const auto now = listeners_;  // a listener may add others, or end some: those are not called any more
     for (const auto& one : now) {
@@ -33,8 +23,16 @@ class Listeners {
   }
 
  private:
+  friend class Listening;
+  /// For as long as what comes back is kept, which may be longer than these are.
+  [[nodiscard]] std::shared_ptr<const void> listen(Listener listener) {
+    std::erase_if(listeners_, [](const auto& one) { return one.expired(); });
+    auto kept = std::make_shared<const Listener>(std::move(listener));
+    listeners_.push_back(kept);
+    return kept;
+  }
+
   std::vector<std::weak_ptr<const Listener>> listeners_;
-  std::vector<std::shared_ptr<const void>> for_good_;
 };
 
 }  // namespace sonar

@@ -361,7 +361,8 @@ TEST_F(Files, APictureOfAnyKindIsMadeFromTheMenu) {
 TEST_F(Files, CtrlOAndADroppedFolderOpenASurvey) {
   app_->dialogs.folder_to_open = [this] { return survey_.string(); };
   int opened = 0;
-  document().changes().add([&](DocumentChange change) { opened += change == DocumentChange::survey ? 1 : 0; });
+  const Listening heard_of(document().changes(),
+                           [&](DocumentChange change) { opened += change == DocumentChange::survey ? 1 : 0; });
   key(Qt::Key_O, Qt::ControlModifier);
   EXPECT_EQ(opened, 1);
   drop(survey_);

@@ -91,7 +91,7 @@ TEST_F(Killed, DISABLED_Propagates) {
   const Target target = look_at_school();
   click("top_slice", place_in("top_slice", target.voxel));
   tell();
-  document().changes().add([this](DocumentChange change) {
+  const Listening heard_of(document().changes(), [this](DocumentChange change) {
     if (change == DocumentChange::propagating && document().propagating().size() == 2) tell();
   });
   key(Qt::Key_P, Qt::ControlModifier);
@@ -114,7 +114,7 @@ TEST_F(Killed, AmidAPropagationKeepsWhatWasDoneBeforeIt) {
 
 /// A search of which nothing is shown to the end.
 TEST_F(Killed, DISABLED_Detects) {
-  document().changes().add([this, told = false](DocumentChange change) mutable {
+  const Listening heard_of(document().changes(), [this, told = false](DocumentChange change) mutable {
     const bool searching = change == DocumentChange::progress && document().progress().stage == "detecting";
     if (told || (!searching && change != DocumentChange::state)) return;
     told = true;

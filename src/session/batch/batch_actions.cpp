@@ -48,7 +48,7 @@ bool batch_may_end(AppModel& app) {
 
 void add_batch(AppModel& app) {
   app.batch = std::make_shared<Batch>(app.workspace.queue, app.workspace.document);
-  app.batch->changed().add([&app](BatchChange change) {
+  app.listening.to(app.batch->changed(), [&app](BatchChange change) {
     if (change != BatchChange::surveys || app.batch->listed() == app.preferences.batch) return;
     app.preferences.batch = app.batch->listed();
     keep_preferences(app);

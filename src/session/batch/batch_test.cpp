@@ -258,7 +258,7 @@ TEST_F(BatchRuns, RowsTellHowEachStands) {
   EXPECT_EQ(text(BatchRows::Column::state), "waiting");
   std::vector<double> shares;
   std::string seen;
-  batch_.changed().add([&](BatchChange change) {
+  const Listening heard_of(batch_.changed(), [&](BatchChange change) {
     if (change != BatchChange::progress) return;
     shares.push_back(std::get<double>(rows.cell(0, static_cast<std::size_t>(BatchRows::Column::progress)).key));
     seen += text(BatchRows::Column::progress) + "\n" + total_text(batch_) + "\n";

@@ -64,7 +64,7 @@ TEST(ListsWhileReading, TheSurveyTreeTellsRunsOfFilesAndOpensOneAlone) {
   Rows& tree = *app.rows("survey_tree");
   std::vector<std::string> names;
   std::string hint;
-  document.changes().add([&](DocumentChange change) {
+  const Listening heard_of(document.changes(), [&](DocumentChange change) {
     if (change != DocumentChange::glance || !document.glance() || document.glance()->files.size() < 2) return;
     for (std::size_t row = 0; row < tree.rows(); ++row) names.push_back(tree.cell(row, 0).text);
     hint = tree.cell(0, 4).text;
@@ -174,7 +174,8 @@ TEST_F(Lists, WhileSchoolsAreFoundAgainNoDecisionIsCalledLost) {
   press("review.accept");
   document().settle();
   app_ = std::make_unique<AppModel>(queue_, TestSurvey::options(journal_));
-  auto listening = document().changes().listen([&](DocumentChange change) {
+  std::optional<Listening> listening(std::in_place);
+  listening->to(document().changes(), [&](DocumentChange change) {
     if (change != DocumentChange::state && change != DocumentChange::measures) return;
     if (document().survey() == nullptr || !document().choices().states.contains(0)) return;
     for (std::size_t row = 0; row < rows("diagnostics").rows(); ++row) {

@@ -52,10 +52,10 @@ void remember_charts(AppModel& app) {
     const auto& paths = workspace.document.paths();
     return paths.empty() ? std::filesystem::path{} : paths.front();
   };
-  workspace.document.changes().add([&app, &workspace, survey](DocumentChange change) {
+  app.listening.to(workspace.document.changes(), [&app, &workspace, survey](DocumentChange change) {
     if (change == DocumentChange::survey) workspace.depth_raster.set(app.preferences.chart_of(survey()));
   });
-  workspace.depth_raster.changed().add([&app, &workspace, survey] {
+  app.listening.to(workspace.depth_raster.changed(), [&app, &workspace, survey] {
     if (survey().empty() || app.preferences.chart_of(survey()) == workspace.depth_raster()) return;
     app.preferences.set_chart(survey(), workspace.depth_raster());
     keep_preferences(app);

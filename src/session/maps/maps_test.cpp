@@ -141,12 +141,12 @@ TEST(MosaicFollower, SetsNoPingWhoseMasksAreTheSame) {
 TEST(ObservationMapModel, FillsWhileAPropagationRuns) {
   TestMaps maps;
   maps.see(maps.map);
-  maps.workspace.document.changes().add([&](DocumentChange change) {
+  const Listening heard_of(maps.workspace.document.changes(), [&](DocumentChange change) {
     if (change == DocumentChange::propagating) maps.map.wait();  // each step's picture is built
   });
   std::size_t all = 0;
   std::size_t fillings = 0;
-  maps.map.changed().add([&, pictures = maps.map.pictures()]() mutable {
+  const Listening drawn(maps.map.changed(), [&, pictures = maps.map.pictures()]() mutable {
     if (!maps.map.places() || maps.map.pictures() == pictures) return;
     pictures = maps.map.pictures();
     all += maps.map.places()->pings_set;

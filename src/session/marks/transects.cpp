@@ -38,14 +38,14 @@ std::optional<SurveyPeriod> placed(const SurveyFiles& survey, const Transect& pe
 
 void remember_transects(AppModel& app) {
   Workspace& workspace = app.workspace;
-  workspace.document.changes().add([&app, &workspace](DocumentChange change) {
+  app.listening.to(workspace.document.changes(), [&app, &workspace](DocumentChange change) {
     if (change != DocumentChange::survey) return;
     const std::filesystem::path file = file_of(app.preferences.transects, survey_of(workspace));
     if (file == workspace.transects().file) return;
     workspace.transects.set({});
     if (!file.empty()) open_transects(workspace, file);
   });
-  workspace.transects.changed().add([&app, &workspace] {
+  app.listening.to(workspace.transects.changed(), [&app, &workspace] {
     const std::filesystem::path survey = survey_of(workspace);
     const std::filesystem::path& file = workspace.transects().file;
     if (survey.empty() || file.empty() || file_of(app.preferences.transects, survey) == file) return;

@@ -15,6 +15,7 @@
 
 #include "base/test_full_disk.h"
 #include "pipeline/stages/observe.h"
+#include "session/listening.h"
 #include "session/test_survey.h"
 
 namespace sonar {
@@ -27,7 +28,7 @@ class DocumentAtWork : public testing::Test {
   void reopen() {
     document_.reset();
     document_ = std::make_unique<Document>(queue_, TestSurvey::options(journal_));
-    document_->changes().add([this](DocumentChange change) { heard_.insert(change); });
+    listening_.emplace(document_->changes(), [this](DocumentChange change) { heard_.insert(change); });
     document_->open({TestSurvey::easy().folder()});
     document_->settle();
   }
@@ -63,6 +64,7 @@ class DocumentAtWork : public testing::Test {
   std::filesystem::path journal_ = TestSurvey::easy().fresh();
   ChangeQueue queue_;
   std::set<DocumentChange> heard_;
+  std::optional<Listening> listening_;
   std::unique_ptr<Document> document_;
 };
 
@@ -138,12 +140,12 @@ TEST_F(DocumentAtWork, APropagationTellsEveryPingAndItsRerunGivesTheSameMasks) {
   command.seeds = {at.seed};
   command.reach = 3;
   std::set<std::int64_t> seen;
-  document_->changes().add([&](DocumentChange change) {
+  const Listening heard_of(document_->changes(), [&](DocumentChange change) {
     if (change != DocumentChange::propagating) return;
     for (const auto& [ping, mask] : document_->propagating()) seen.insert(ping);
   });
   std::int64_t most = 0;
-  document_->changes().add([&](DocumentChange change) {
+  const Listening progress_of(document_->changes(), [&](DocumentChange change) {
     if (change != DocumentChange::progress || document_->activity().stage != "propagating") return;
     EXPECT_LE(document_->activity().done, document_->activity().total);
     most = std::max(most, document_->activity().done);
@@ -264,7 +266,7 @@ TEST_F(DocumentAtWork, LookingLeavesNothingBehindAndTheFirstChoiceMakesTheFolder
 TEST_F(DocumentAtWork, BothEndsOfTheFilesAreThereFirst) {
   document_ = std::make_unique<Document>(queue_, TestSurvey::options(journal_));
   std::vector<std::string> seen;
-  document_->changes().add([&](DocumentChange change) {
+  const Listening heard_of(document_->changes(), [&](DocumentChange change) {
     if (change != DocumentChange::survey && change != DocumentChange::glance) return;
     const auto& glance = document_->glance();
     seen.push_back(fmt::format("{}/{}", glance ? glance->observations.size() : 0,
@@ -301,7 +303,7 @@ TEST_F(DocumentAtWork, TheFirstPictureDoesNotWaitForTheJournal) {
   document_.reset();
   document_ = std::make_unique<Document>(queue_, TestSurvey::options(journal_));
   std::vector<DocumentChange> order;
-  document_->changes().add([&](DocumentChange change) { order.push_back(change); });
+  const Listening heard_of(document_->changes(), [&](DocumentChange change) { order.push_back(change); });
   document_->open({TestSurvey::easy().folder()});
   document_->settle();
   const auto first = [&](DocumentChange change) {
@@ -318,7 +320,7 @@ TEST_F(DocumentAtWork, AnActBeforeTheFirstPictureComesAfterTheJournal) {
   document_.reset();
   document_ = std::make_unique<Document>(queue_, TestSurvey::options(journal_));
   bool acted = false;
-  document_->changes().add([&](DocumentChange change) {
+  const Listening heard_of(document_->changes(), [&](DocumentChange change) {
     if (change != DocumentChange::observation || acted) return;
     acted = true;
     EXPECT_FALSE(document_->staged());

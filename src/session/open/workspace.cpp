@@ -94,7 +94,7 @@ Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
       window(changes),
       figure(changes),
       view_curve(first_view_curve()) {
-  document.changes().add([this, last = std::make_shared<std::weak_ptr<const int>>()](DocumentChange change) {
+  listening_.to(document.changes(), [this, last = std::make_shared<std::weak_ptr<const int>>()](DocumentChange change) {
     if (change != DocumentChange::observation && change != DocumentChange::survey) return;
     const auto& shown = document.shown();
     const auto identity = shown ? shown->identity() : nullptr;
@@ -108,18 +108,18 @@ Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
     slices.set({sector.fans() / 2, sector.beams() / 2, sector.range().count / 2});
     lay_plane(*this);
   });
-  display.changed().add([this](const DisplayParams& params) {
+  listening_.to(display.changed(), [this](const DisplayParams& params) {
     // A curve that a human drew keeps its shape and takes the scale's colours.
     auto curve = curve_follows_scale()
                      ? transfer_function(params.scale, kMostOpacity)
                      : curve_of(params.scale, corners_of(view_curve()), view_curve().opacity_length_m());
     if (curve) view_curve.set(std::move(*curve));
   });
-  school.changed().add([this] {
+  listening_.to(school.changed(), [this] {
     mark.set(std::nullopt);
     if (!school() || !chosen_schools().contains(*school())) chosen_schools.set({});
   });
-  document.changes().add([this](DocumentChange change) {
+  listening_.to(document.changes(), [this](DocumentChange change) {
     if (change == DocumentChange::survey || (change == DocumentChange::state && !still_there(mark(), document))) {
       mark.set(std::nullopt);
     }
@@ -129,10 +129,10 @@ Workspace::Workspace(ChangeQueue& changes, DocumentOptions options)
     if (change == DocumentChange::survey) chosen_schools.set({});
     if (change == DocumentChange::state) chosen_schools.set(still_there(chosen_schools(), document));
   });
-  window.changed().add([this](const WindowParams& params) { units.set(params.units); });
-  view_curve.changed().add([this] { link(true); });
-  growth_curve.changed().add([this] { link(false); });
-  curves_linked.changed().add([this] { link(true); });
+  listening_.to(window.changed(), [this](const WindowParams& params) { units.set(params.units); });
+  listening_.to(view_curve.changed(), [this] { link(true); });
+  listening_.to(growth_curve.changed(), [this] { link(false); });
+  listening_.to(curves_linked.changed(), [this] { link(true); });
 }
 
 void Workspace::link(bool from_view) {

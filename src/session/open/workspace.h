@@ -17,7 +17,7 @@
 #include "pipeline/exports/reduce.h"
 #include "pipeline/integrate/integrate_params.h"
 #include "session/change_queue.h"
-#include "session/listeners.h"
+#include "session/listening.h"
 #include "session/looks/display.h"
 #include "session/looks/window_params.h"
 #include "session/numbers/fish_params.h"
@@ -182,6 +182,7 @@ struct Workspace {
   /// Gives one curve the other's opacity where they are linked; colours are the view curve's alone.
   void link(bool from_view);
   bool linking_ = false;
+  Listening listening_;  // the last member: it ends first
 };
 
 /// The cursor's read-out, each empty where it is unknown. Position in degrees and decimal minutes, time UTC, lengths and

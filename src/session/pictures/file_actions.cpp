@@ -332,7 +332,7 @@ void add_exports(AppModel& app) {
                    .run = [&app] {
                      if (app.dialogs.quit) app.dialogs.quit();
                    }});
-  app.workspace.document.changes().add([&app](DocumentChange change) {
+  app.listening.to(app.workspace.document.changes(), [&app](DocumentChange change) {
     const Document& document = app.workspace.document;
     if ((change == DocumentChange::looking || change == DocumentChange::ping) && document.shown()) {
       app.preferences.set_left_at(document.named(), document.shown()->name(), document.ping());

@@ -148,7 +148,7 @@ void compose_figure(AppModel& app) {
 
 /// Words of one survey's figure are not another's.
 void forget_words_of_figures(AppModel& app) {
-  app.workspace.document.changes().add([&app](DocumentChange change) {
+  app.listening.to(app.workspace.document.changes(), [&app](DocumentChange change) {
     if (change != DocumentChange::survey) return;
     FigureParams params = app.workspace.figure.values();
     params.title.clear();

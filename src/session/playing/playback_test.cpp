@@ -11,7 +11,7 @@ namespace {
 TEST(AnimationDriver, RunsWhatHasMoreToDoAndSaysWhenItRests) {
   AnimationDriver animations;
   int changes = 0;
-  animations.changed().add([&] { ++changes; });
+  const Listening heard_of(animations.changed(), [&] { ++changes; });
   int left = 2;
   animations.run("count", [&](double) { return --left > 0; });
   EXPECT_TRUE(animations.running());
@@ -54,7 +54,7 @@ TEST_F(PlaybackAtWork, TellsHowManyPingsASecondItReaches) {
 
 TEST_F(PlaybackAtWork, ShowsEveryPingInItsOrderAndThenRests) {
   std::vector<std::int64_t> arrived;
-  document().changes().add([&](DocumentChange change) {
+  const Listening heard_of(document().changes(), [&](DocumentChange change) {
     if (change == DocumentChange::ping) arrived.push_back(document().staged()->ping_index);
   });
   for (int i = 0; i < 4; ++i) app_.ask("ping.faster");

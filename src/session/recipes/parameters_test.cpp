@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "session/listening.h"
+
 namespace sonar {
 namespace {
 
@@ -50,7 +52,7 @@ TEST(Parameters, ListenersHearOnceATurn) {
   ChangeQueue queue;
   Parameters<Outer> parameters(queue);
   std::vector<double> heard;
-  parameters.changed().add([&](const Outer& now) { heard.push_back(now.tolerance_db); });
+  const Listening heard_of(parameters.changed(), [&](const Outer& now) { heard.push_back(now.tolerance_db); });
   for (int i = 0; i < 10; ++i) ASSERT_TRUE(parameters.set("tolerance_db", 4.0 + i));
   ASSERT_TRUE(parameters.set("mode", Choice{1}));
   queue.drain();

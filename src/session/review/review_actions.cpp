@@ -187,15 +187,15 @@ void add_lists(AppModel& app) {
          app.workspace.document.tell("click the list whose rows you want to copy");
        }});
   // What was decided in earlier runs is seen at once, wherever in the survey it lies.
-  workspace.document.changes().add(
-      [&workspace, opened = std::make_shared<std::filesystem::path>()](DocumentChange change) {
-        Document& document = workspace.document;
-        if (change == DocumentChange::survey) opened->clear();
-        if (change != DocumentChange::state || document.choices().lines->empty()) return;
-        if (*opened == document.journal_path()) return;
-        *opened = document.journal_path();
-        document.open_all();
-      });
+  app.listening.to(workspace.document.changes(),
+                   [&workspace, opened = std::make_shared<std::filesystem::path>()](DocumentChange change) {
+                     Document& document = workspace.document;
+                     if (change == DocumentChange::survey) opened->clear();
+                     if (change != DocumentChange::state || document.choices().lines->empty()) return;
+                     if (*opened == document.journal_path()) return;
+                     *opened = document.journal_path();
+                     document.open_all();
+                   });
 }
 
 }  // namespace sonar

@@ -105,7 +105,7 @@ TEST_F(ReviewAtWork, WhatCannotBeWrittenDownIsShownAgainInsteadOfTheNext) {
 TEST_F(ReviewAtWork, WhileSchoolsAreMeasuredTheNextOneWaitsForTheStrongest) {
   document().detect({0, 1});
   bool asked = false;
-  document().changes().add([&](DocumentChange change) {
+  const Listening heard_of(document().changes(), [&](DocumentChange change) {
     if (change != DocumentChange::state || asked || document().state().schools.empty()) return;
     asked = true;
     EXPECT_TRUE(document().product(0) == nullptr || document().product(0)->schools.empty())

@@ -280,7 +280,7 @@ void add_parting(AppModel& app, const std::shared_ptr<Merging>& merging) {
                    .run = [&workspace, merging] { begin_merging(workspace, *merging); },
                    .enabled = with_school(app),
                    .of_school = true});
-  workspace.school.changed().add([&workspace, merging] { merge_selected(workspace, *merging); });
+  app.listening.to(workspace.school.changed(), [&workspace, merging] { merge_selected(workspace, *merging); });
 }
 
 void add_naming(AppModel& app) {

@@ -71,7 +71,7 @@ TEST_F(VolumeAtWork, TheFirstPictureIsCoarseAndLaterOnesComeNearer) {
   // A new model knows nothing of the machine's pace: the first picture fits its 5 ms only at a part of the resolution.
   model_ = std::make_unique<VolumeModel>(workspace_);
   std::vector<std::pair<int, Image>> pictures;
-  model_->changed().add([&] {
+  const Listening heard_of(model_->changed(), [&] {
     if (model_->shown() != nullptr) pictures.emplace_back(model_->shown()->divisor, model_->image());
   });
   model_->resize(kVolumeTestSize, 1.0);

@@ -60,7 +60,7 @@ TEST(IdleText, AJournalThatIsReadAtOpeningShowsHowFarItIs) {
   for (const bool again : {false, true}) {
     Document document(queue, TestSurvey::options(journal));
     std::vector<std::int64_t> totals;
-    document.changes().add([&](DocumentChange change) {
+    const Listening heard_of(document.changes(), [&](DocumentChange change) {
       const Progress now = document.activity();
       if (change == DocumentChange::progress && now.stage == "reading the journal") totals.push_back(now.total);
     });

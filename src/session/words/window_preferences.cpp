@@ -73,17 +73,17 @@ void add_window_preferences(AppModel& app) {
   Workspace& workspace = app.workspace;
   // What a key has changed comes here later, when another may have been pressed: it is followed already.
   const auto followed = std::make_shared<WindowParams>();
-  workspace.window.changed().add([&app, followed](const WindowParams& now) {
+  app.listening.to(workspace.window.changed(), [&app, followed](const WindowParams& now) {
     const WindowParams before = std::exchange(*followed, now);
     follow(app, before, now);
   });
-  workspace.dark.changed().add([&app, followed] {
+  app.listening.to(workspace.dark.changed(), [&app, followed] {
     WindowParams params = app.workspace.window.values();
     if (is_dark(app, params.theme) == app.workspace.dark()) return;
     followed->theme = params.theme = app.workspace.dark() ? ThemeName::dark : ThemeName::light;
     app.workspace.window.assign(params);
   });
-  app.playback->changed().add([&app, followed] {
+  app.listening.to(app.playback->changed(), [&app, followed] {
     WindowParams params = app.workspace.window.values();
     const double rate = app.playback->rate();
     const bool kept = !std::isfinite(rate) || rate == params.play_rate;  // as fast as possible is for now
