@@ -28,6 +28,8 @@ class MainWindow : public QMainWindow {
   /// at_first  its size; empty = as first_size() has it for its screen
   explicit MainWindow(AppModel& app, std::optional<QSize> at_first = {});
   ~MainWindow() override;
+  MainWindow(const MainWindow&) = delete;
+  MainWindow& operator=(const MainWindow&) = delete;
 
   /// Docks and size as text, for the preferences.
   [[nodiscard]] std::string layout() const;

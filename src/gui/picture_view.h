@@ -21,6 +21,8 @@ class PictureView : public QWidget {
   /// latencies  whether the time of the last picture is written over it
   PictureView(LivePicture& picture, Shared<bool>& latencies, QWidget* parent = nullptr);
   ~PictureView() override;
+  PictureView(const PictureView&) = delete;
+  PictureView& operator=(const PictureView&) = delete;
   [[nodiscard]] LivePicture& picture() { return picture_; }
   /// What stands there while there is no picture and nothing wrong.
   void set_idle_text(std::function<QString()> text) { idle_text_ = std::move(text); }

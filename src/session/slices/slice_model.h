@@ -25,8 +25,6 @@ class SliceModel : public LivePicture {
  public:
   /// All outlive the model.
   SliceModel(SliceKind kind, Workspace& workspace, SeedTool& seed, BrushTool& brush);
-  SliceModel(const SliceModel&) = delete;
-  SliceModel& operator=(const SliceModel&) = delete;
 
   void pointer(const PointerEvent& event) override;
   /// Of a slice that shows all there is nothing to move: fingers go through its fans, as the wheel does.

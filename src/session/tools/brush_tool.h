@@ -27,6 +27,7 @@ namespace sonar {
 class BrushTool {
  public:
   explicit BrushTool(Workspace& workspace);
+  ~BrushTool() = default;
   BrushTool(const BrushTool&) = delete;
   BrushTool& operator=(const BrushTool&) = delete;
 
