@@ -51,7 +51,8 @@ void add_common(CLI::App& verb, RenderArguments& a) {
             ->check(some_name()),
         "slice- volume propagation observation-map timeline echogram chart frequency curves noise-steps lineage movie");
   suits(verb.add_option("--ping", a.picture.ping,
-                        "Ping index; default: that of the strongest whole school, else the middle one"),
+                        "Ping index; default: that of the strongest whole school, else the middle one, of surfaces the "
+                        "one that has most"),
         kOfPing);
   verb.add_option("--schools", a.schools, "School ids between commas; default: all")->type_name("N,N");
   auto* filtered = verb.add_flag("--filtered", a.filtered, "Noise removed; default of volumes");

@@ -36,7 +36,7 @@ struct PictureOptions {
   DisplayParams display = plain_display();
   bool limits_given = false;  ///< the scale's limits are a choice: kinds with limits of their own take them too
   std::optional<TransferFunction> transfer;  ///< view curve instead of the scale's colours
-  std::optional<int> ping;                   ///< empty = that of the strongest whole school, else the middle one
+  std::optional<int> ping;                   ///< empty = as chosen_ping(), of surfaces as with_ping_to_see()
   double towards_next = 0.0;          ///< of a movie's picture between two pings: how far to the next, 0 <= x < 1
   std::vector<std::int64_t> schools;  ///< empty = all
   /// Of slices and of what volumes show of them; empty = through the largest school, else the middle.

@@ -1,70 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <atomic>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "publish/echograms/echogram_cache.h"
+#include "publish/echograms/observation_echogram.h"
 #include "publish/maps/map_pictures.h"
 #include "publish/volumes/drawn_schools.h"
 #include "view/timelines/echogram_pyramid.h"
 #include "view/timelines/timeline.h"
 
 namespace sonar {
-namespace {
-
-/// Pings that are worked on at once, so that memory does not grow with the observation.
-constexpr std::int64_t kAtOnce = 32;
-
-/// Columns of every ping; empty for those that cannot be read. `whole` becomes false where the disk was at fault, which
-/// may be better the next time.
-Result<EchogramPyramid> made_echogram(DrawnObservation& observation, bool filtered, const EchogramRange& range,
-                                      std::atomic<bool>& whole, Work& work) {
-  Engine& engine = *observation.engine();
-  if (filtered) {
-    if (auto known = engine.estimate_background(0, observation.pings() - 1, work); !known) return pass_on(known);
-  }
-  const std::int64_t pings = observation.pings();
-  EchogramPyramid pyramid(range);
-  for (std::int64_t first = 0; first < pings; first += kAtOnce) {
-    const std::int64_t count = std::min(kAtOnce, pings - first);
-    std::vector<std::vector<EchogramCell>> columns(static_cast<std::size_t>(count));
-    work.for_each(count, [&](std::int64_t i) {
-      const auto ping = engine.staged(first + i);
-      if (!ping && ping.error().code != ErrorCode::format) whole = false;
-      if (!ping) return;
-      const Volume shown{filtered ? ping->filtered->counts : ping->sv.counts, ping->filtered->flags};
-      columns[static_cast<std::size_t>(i)] = echogram_column(engine.sector(), shown, kNotFiltered, range);
-    });
-    if (work.cancelled()) return fail(ErrorCode::cancelled, "stopped on request");
-    for (std::int64_t i = 0; i < count; ++i) {
-      const PingNavigation& navigation = observation.product().pings[static_cast<std::size_t>(first + i)];
-      pyramid.add_ping(navigation.time, columns[static_cast<std::size_t>(i)], navigation.distance_nmi);
-    }
-    work.progress("echogram", first + count, pings);
-  }
-  return pyramid;
-}
-
-/// From the user's cache, or made and kept there. Null without raw files.
-Result<std::unique_ptr<EchogramPyramid>> echogram(DrawnObservation& observation, bool filtered, int level, Work& work) {
-  Engine* engine = observation.engine();
-  if (engine == nullptr && observation.has_raw()) return pass_on(observation.sector());
-  if (engine == nullptr) return std::unique_ptr<EchogramPyramid>();
-  // Flags need no background: the echogram is of Sv as recorded.
-  const EchogramRange range = echogram_range(engine->sector().range());
-  const EchogramEntry entry = echogram_entry(IndexCache::of_user(), engine->survey(), engine->observation(),
-                                             recipe_hash(engine->recipe()), filtered, kNotFiltered, range);
-  if (auto kept = kept_echogram(entry, level)) return std::make_unique<EchogramPyramid>(std::move(*kept));
-  std::atomic<bool> whole = true;
-  auto made = made_echogram(observation, filtered, range, whole, work);
-  if (!made) return pass_on(made);
-  if (whole) keep_echogram(entry, *made);
-  return std::make_unique<EchogramPyramid>(made->coarser(level));
-}
-
-}  // namespace
 
 Result<FrameDescription> timeline_frame(const std::vector<DrawnObservation*>& observations,
                                         const PictureOptions& options, Work& work) {
@@ -80,8 +26,7 @@ Result<FrameDescription> timeline_frame(const std::vector<DrawnObservation*>& ob
     // Among several observations those without a grid have nothing to show; alone they are told about.
     const bool drawable = !observation->has_raw() || observation->engine() != nullptr;
     if (!drawable && observations.size() > 1) continue;
-    auto made = echogram(*observation, options.display.filtered, level, work);
-    if (observation->engine() != nullptr) observation->engine()->rest();
+    auto made = observation_echogram(*observation, options.display.filtered, level, work);
     if (!made) return pass_on(made);
     echograms.push_back(std::move(*made));
     products.push_back(with_chosen_schools(observation->product(), options));

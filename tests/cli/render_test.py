@@ -110,7 +110,6 @@ PICTURES = {
     "volume-tint": (["volume", *BOTH, "--frames", "2", "--tint", "--ping", "9", *NEAR], TRACED),
     "volume-many-lines": (["volume", *BOTH, "--frames", "2", "--ping", "9", *NEAR, "--map", "ek500", "--no-lighting"], TRACED),
     "volume-cut-open": (["volume", *BOTH, "--frames", "2", "--ping", "9", "--clip", "both-slices", "--slice-planes", "--no-masks"], TRACED),
-    "propagation-raw-alone": (["propagation", sonarx.SURVEY, "--ping", "0"], DRAWN),
     "survey-map-raw-alone": (["survey-map", sonarx.SURVEY], DRAWN),
     "propagation": (["propagation", sonarx.OUT, "--ping", "3"], DRAWN),
     "propagation-side": (["propagation", sonarx.OUT, "--ping", "3", "--side", "--neighbours", "1"], DRAWN),
@@ -290,13 +289,27 @@ class Files(sonarx.Case):
         self.assertIn("there is no fan 99", error)
 
     def test_raw_files_alone_do_not_look_like_a_survey_without_schools(self):
-        for kind in ("propagation", "survey-map", "observation-map", "timeline"):
+        for kind in ("survey-map", "observation-map", "timeline"):
             said = " ".join(self.words(kind, sonarx.SURVEY))
             self.assertIn("schools not detected", said, kind)
             self.assertNotIn("0 schools", said, kind)
             self.assertNotIn("not detected", " ".join(self.words(kind, *BOTH)), kind)
         self.assertIn("no masks: schools not detected",
                       self.words("volume", sonarx.SURVEY, "--masks-alone", "--frames", "0"))
+
+    def test_a_propagation_of_nothing_is_none(self):
+        make_refused()
+        for paths, why in (([sonarx.SURVEY], "schools have not been detected"), ([REFUSED], "there are no schools")):
+            self.one_line_error("render", "propagation", *paths, "--out", sonarx.WORK / "none.png", code=1, names=why)
+
+    def test_surfaces_of_raw_files_alone_are_of_the_ping_that_has_most(self):
+        """The middle ping may have none: the louder the level, the fewer pings reach it, and the last one is drawn."""
+        view = ("volume", sonarx.SURVEY, "--mode", "first-hit", "--frames", "0", "--first-hit-db")
+        silent = lambda words: any(text.startswith("nothing reaches") for text in words)
+        middle = [ping for ping in range(14) if f"ping {ping}" in " ".join(self.words("slice-top", sonarx.SURVEY))]
+        level = next(db for db in range(-50, 0) if silent(self.words(*view, db, "--ping", max(middle))))
+        self.assertFalse(silent(self.words(*view, level)), level)
+        self.assertTrue(silent(self.words(*view, 20)))
 
     def test_schools_that_were_left_out_are_counted(self):
         all_of = {name: sum(row["observation"] == name for row in sonarx.read_csv(sonarx.OUT / "schools.csv"))

@@ -60,6 +60,12 @@ Result<FrameDescription> propagation_frame(const DrawnObservation& observation, 
   if (!ping) return pass_on(ping);
   const auto sector = observation.sector();
   if (!sector) return pass_on(sector);
+  if (observation.product().masks.empty()) {
+    return fail(ErrorCode::not_found, observation.has_product()
+                                          ? "there are no schools to draw a propagation of"
+                                          : "schools have not been detected: a propagation is made of products; name "
+                                            "the work folder of a run");
+  }
   const ObservationProduct product = with_chosen_schools(observation.product(), options);
   PropagationStyle style;
   style.dates = true;

@@ -11,6 +11,7 @@
 #include "publish/movies/between_pings.h"
 #include "publish/picture.h"
 #include "publish/volumes/volume_figure.h"
+#include "publish/volumes/volume_picture.h"
 #include "view/axes.h"
 #include "view/composed_figure.h"
 #include "view/shapes.h"
@@ -87,16 +88,22 @@ std::string times_text(double times) {
 
 }  // namespace
 
-Result<Movie> Movie::of(PictureSource& source, const std::string& observation, const PictureOptions& options) {
-  if (auto valid = validate_options(options); !valid) return pass_on(valid);
-  if (auto valid = validate_movie(options); !valid) return pass_on(valid);
+Result<Movie> Movie::of(PictureSource& source, const std::string& observation, const PictureOptions& asked,
+                        Work& work) {
+  if (auto valid = validate_options(asked); !valid) return pass_on(valid);
+  if (auto valid = validate_movie(asked); !valid) return pass_on(valid);
   const auto chosen = source.observation(observation);
   if (!chosen) return pass_on(chosen);
+  const MovieParams& params = asked.kind.movie;
+  const bool turns = params.of == MovieOf::volume && params.motion == MovieMotion::turntable;
+  const auto seen = turns ? with_ping_to_see(**chosen, asked, work) : Result<PictureOptions>(asked);
+  if (!seen) return pass_on(seen);
+  const PictureOptions& options = *seen;
   const auto pings = movie_pings(**chosen, options);
   if (!pings) return pass_on(pings);
   Movie movie(source, **chosen, options);
   movie.pings_ = *pings;
-  movie.steps_ = movie_steps(options.kind.movie, *pings);
+  movie.steps_ = movie_steps(params, *pings);
   if (auto ready = movie.prepare_camera(); !ready) return pass_on(ready);
   return movie;
 }

@@ -24,9 +24,9 @@ class Movie {
   /// source       outlives the movie
   /// observation  empty = the first
   /// options      options.kind.movie says what moves; the ping of its own is a turntable's
-  /// errors       as validate_movie(), movie_pings() and TrackCamera::along()
+  /// errors       as validate_movie(), with_ping_to_see(), movie_pings() and TrackCamera::along()
   [[nodiscard]] static Result<Movie> of(PictureSource& source, const std::string& observation,
-                                        const PictureOptions& options);
+                                        const PictureOptions& options, Work& work);
 
   [[nodiscard]] const std::vector<MovieStep>& steps() const { return steps_; }
   /// With a line below it: which ping, how fast the movie runs, and whether the picture is interpolated.

@@ -112,7 +112,7 @@ Result<WrittenMovie> write_movie(PictureSource& source, const std::string& obser
   auto written = possible_file(file);
   if (!written) return written;
   if (auto outside = source.require_outside_raw(written->file); !outside) return pass_on(outside);
-  const auto movie = Movie::of(source, observation, options);
+  const auto movie = Movie::of(source, observation, options, work);
   if (!movie) return pass_on(movie);
   const TotalProgress progress(work);
   const std::size_t pictures = movie->steps().size();

@@ -31,6 +31,14 @@ bool wanted(const ObservationProduct& product, std::int64_t school_id, const Pic
   return wanted(school_id, row == product.schools.end() ? std::string_view() : row->status, options);
 }
 
+std::optional<std::int64_t> strongest_schools_ping(const DrawnObservation& observation, const PictureOptions& options) {
+  // The same whether schools are shown or not: a picture without them is to be laid beside the one with them.
+  const SchoolPingRow* strongest = strongest_ping(
+      observation.product(), [&](const SchoolRow& school) { return wanted(school.school_id, school.status, options); });
+  if (strongest == nullptr || strongest->ping_index >= observation.pings()) return std::nullopt;
+  return strongest->ping_index;
+}
+
 Result<std::int64_t> chosen_ping(const DrawnObservation& observation, const PictureOptions& options) {
   const std::int64_t count = observation.pings();
   if (count == 0) return fail(ErrorCode::usage, observation.name() + " has no pings");
@@ -39,10 +47,7 @@ Result<std::int64_t> chosen_ping(const DrawnObservation& observation, const Pict
     return fail(ErrorCode::usage,
                 fmt::format("no ping {} in {}: it has pings 0 to {}", *options.ping, observation.name(), count - 1));
   }
-  // The same whether schools are shown or not: a picture without them is to be laid beside the one with them.
-  const SchoolPingRow* strongest = strongest_ping(
-      observation.product(), [&](const SchoolRow& school) { return wanted(school.school_id, school.status, options); });
-  return strongest != nullptr && strongest->ping_index < count ? strongest->ping_index : count / 2;
+  return strongest_schools_ping(observation, options).value_or(count / 2);
 }
 
 namespace {

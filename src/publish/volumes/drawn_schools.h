@@ -16,8 +16,10 @@ namespace sonar {
 /// Whether the options ask for a school of an observation.
 [[nodiscard]] bool wanted(const ObservationProduct& product, std::int64_t school_id, const PictureOptions& options);
 
-/// The ping to draw: the one asked for, else that of the strongest whole school that the options ask for, else the middle
-/// one.
+/// That of the strongest whole school that the options ask for; empty without any.
+[[nodiscard]] std::optional<std::int64_t> strongest_schools_ping(const DrawnObservation& observation,
+                                                                 const PictureOptions& options);
+/// The ping to draw: the one asked for, else strongest_schools_ping(), else the middle one.
 /// errors  usage: no such ping
 [[nodiscard]] Result<std::int64_t> chosen_ping(const DrawnObservation& observation, const PictureOptions& options);
 

@@ -125,7 +125,7 @@ TEST_F(VolumeTrails, AMoviesEyeStandsStillWhereItIsAskedTo) {
   options_.size = {500, 420};
   options_.display.masks = false;
   const auto first_and_last = [&] {
-    const auto movie = Movie::of(*source_, "", options_);
+    const auto movie = Movie::of(*source_, "", options_, work_);
     EXPECT_TRUE(movie) << to_line(movie.error());
     std::vector<std::string> places;
     for (const std::size_t step : {std::size_t{0}, movie->steps().size() - 1}) {
@@ -149,7 +149,7 @@ TEST_F(VolumeTrails, AMoviesEyeStandsStillWhereItIsAskedTo) {
   ASSERT_EQ(places.size(), 2U);
   EXPECT_NE(places[0], places[1]);
   options_.kind.volume.eye_ping = 99;
-  EXPECT_FALSE(Movie::of(*source_, "", options_));
+  EXPECT_FALSE(Movie::of(*source_, "", options_, work_));
 }
 
 }  // namespace
