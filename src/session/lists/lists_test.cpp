@@ -174,8 +174,7 @@ TEST_F(Lists, WhileSchoolsAreFoundAgainNoDecisionIsCalledLost) {
   press("review.accept");
   document().settle();
   app_ = std::make_unique<AppModel>(queue_, TestSurvey::options(journal_));
-  std::optional<Listening> listening(std::in_place);
-  listening->to(document().changes(), [&](DocumentChange change) {
+  std::optional<Listening> listening(std::in_place, document().changes(), [&](DocumentChange change) {
     if (change != DocumentChange::state && change != DocumentChange::measures) return;
     if (document().survey() == nullptr || !document().choices().states.contains(0)) return;
     for (std::size_t row = 0; row < rows("diagnostics").rows(); ++row) {

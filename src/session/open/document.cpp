@@ -158,8 +158,7 @@ void Document::cancel() {
 void Document::read(Opening what) {
   if (std::exchange(glance_, nullptr)) changes_.tell(DocumentChange::glance);
   const auto opening = std::make_shared<const Opening>(std::move(what));
-  const auto job = [this, opening, none = survey() == nullptr, asked = asked_recipe_](Work& work,
-                                                                                      const CancelToken& token) {
+  const auto job = [this, opening, none = survey() == nullptr](Work& work, const CancelToken& token) {
     if (const auto done = opening->first ? opening->first(work) : Result<void>{}; !done) {
       return end_with(done.error(), token, opening);
     }
@@ -168,18 +167,14 @@ void Document::read(Opening what) {
     const auto home = home_of(*named);
     const auto folders = options_.journal_folders && !home.empty() ? options_.journal_folders(home)
                                                                    : std::vector<std::filesystem::path>{};
-    Recipe recipe = asked ? *asked : recipe_of(folders, token);
+    Recipe recipe = opening->recipe ? *opening->recipe : recipe_of(folders, token);
     recipe.automatic = false;  // schools are detected when that is asked for
-    const bool of_run = !asked && take_recipe(named->recipe, recipe);
+    const bool of_run = !opening->recipe && take_recipe(named->recipe, recipe);
     if (none && !named->raw.empty()) glance_at(named->raw, recipe, work, token);
     auto survey = survey_of(*named, recipe, work);
     if (!survey) return end_with(survey.error(), token, opening);
     const auto files = std::make_shared<const SurveyFiles>(std::move(survey->survey));
     auto place = placed(*named, folders, *files, recipe);
-    if ((asked || of_run) && place) {
-      const auto kept = keep_recipe(place->path.parent_path(), recipe);
-      if (!kept) place->notices.push_back("the recipe is not kept: " + to_line(kept.error()));
-    }
     if (of_run && place) {
       place->notices.push_back(fmt::format("from now on this survey is opened under the recipe of {}",
                                            named->work_folders.front().string()));
@@ -193,12 +188,11 @@ void Document::read(Opening what) {
     auto others = files->raw_gone.empty()
                       ? other_finds(named->work_folders, *files, recipe, options_.program_version, found)
                       : std::map<std::size_t, OtherFind>{};
-    post(token, [this, asked, opening,
+    post(token, [this, opening, chosen = opening->recipe || of_run,
                  read = SurveyRead{recipe, files, opening->paths, raw_of(*named), named->work_folders, found,
                                    std::move(others), place, survey->products, opening->recipe_before}] {
       if (opening_ != opening) return;  // something else was asked for since
-      if (asked == asked_recipe_) asked_recipe_.reset();
-      take(read, opening->back_to);
+      take(read, chosen, opening->back_to);
     });
   };
   run(job, opening);
@@ -260,9 +254,15 @@ void Document::end_with(const Error& error, const CancelToken& token, const Open
   });
 }
 
-void Document::take(SurveyRead read, const std::optional<std::pair<std::size_t, std::int64_t>>& back_to) {
+void Document::take(SurveyRead read, bool recipe_chosen,
+                    const std::optional<std::pair<std::size_t, std::int64_t>>& back_to) {
+  if (recipe_chosen && read.place) {
+    const auto kept = keep_recipe(read.place->path.parent_path(), read.recipe);
+    if (!kept) read.place->notices.push_back("the recipe is not kept: " + to_line(kept.error()));
+  }
   const std::vector<std::string> notices = read.place ? read.place->notices : std::vector{to_line(read.place.error())};
   opening_.reset();
+  asked_recipe_.reset();
   glance_.reset();
   survey_ = std::make_shared<OpenSurvey>(*this, queue_, std::move(read));
   changes_.tell(DocumentChange::survey);
@@ -272,12 +272,17 @@ void Document::take(SurveyRead read, const std::optional<std::pair<std::size_t, 
 }
 
 void Document::use_recipe(Recipe recipe) {
-  asked_recipe_ = std::make_shared<const Recipe>(std::move(recipe));
-  if (opening_) return read(*opening_);
+  const auto asked = std::make_shared<const Recipe>(std::move(recipe));
+  if (survey() == nullptr) asked_recipe_ = asked;
+  if (opening_) {
+    Opening again = *opening_;
+    again.recipe = asked;
+    return read(std::move(again));
+  }
   if (survey() == nullptr) return;
   std::optional<std::pair<std::size_t, std::int64_t>> back_to;
   if (shown()) back_to = {shown()->index(), ping()};
-  read({survey()->raw_gone.empty() ? paths() : named(), {}, back_to, this->recipe()});
+  read({survey()->raw_gone.empty() ? paths() : named(), {}, back_to, asked, this->recipe()});
 }
 
 Result<void> Document::use_named_recipe(const std::string& path_or_preset) {

@@ -75,9 +75,10 @@ class Document {
   /// as it made them, with its figures as long as nothing but decisions is changed.
   /// first  done before, in the background too: what makes the files, say; empty = nothing
   void open(std::vector<std::filesystem::path> paths, std::function<Result<void>(Work&)> first = {}) {
-    read({std::move(paths), std::move(first), std::nullopt, std::nullopt});
+    read({std::move(paths), std::move(first), std::nullopt, asked_recipe_, std::nullopt});
   }
-  /// Opens the survey under another recipe, and keeps that beside its journals; before one is open, the next.
+  /// Opens the survey under another recipe, and keeps that beside its journals; the one that is being read, where one is;
+  /// before one is open, the next.
   void use_recipe(Recipe recipe);
   /// errors  as named_recipe()
   Result<void> use_named_recipe(const std::string& path_or_preset);
@@ -217,6 +218,7 @@ class Document {
     std::vector<std::filesystem::path> paths;
     std::function<Result<void>(Work&)> first;                     ///< what must be done before; may be empty
     std::optional<std::pair<std::size_t, std::int64_t>> back_to;  ///< see OpenSurvey::begin()
+    std::shared_ptr<const Recipe> recipe;                         ///< null = the one that the survey was opened under
     std::optional<Recipe> recipe_before;                          ///< see SurveyRead
   };
   using OpeningPtr = std::shared_ptr<const Opening>;
@@ -232,12 +234,13 @@ class Document {
   [[nodiscard]] Result<ResultsAlone> survey_of(const NamedToOpen& named, const Recipe& recipe, Work& work) const;
   void end_with(const Error& error, const CancelToken& token, const OpeningPtr& opening);
   [[nodiscard]] Recipe recipe_of(const std::vector<std::filesystem::path>& folders, const CancelToken& token);
-  void take(SurveyRead read, const std::optional<std::pair<std::size_t, std::int64_t>>& back_to);
+  /// recipe_chosen  it is kept beside the journals for the next time
+  void take(SurveyRead read, bool recipe_chosen, const std::optional<std::pair<std::size_t, std::int64_t>>& back_to);
 
   ChangeQueue& queue_;
   DocumentOptions options_;
   OpeningPtr opening_;                          ///< null = nothing is being read
-  std::shared_ptr<const Recipe> asked_recipe_;  ///< that the next survey is opened under
+  std::shared_ptr<const Recipe> asked_recipe_;  ///< that the first survey is opened under; null = as others
   Listeners<DocumentChange> changes_;
   std::shared_ptr<const SurveyFiles> glance_;
   std::vector<std::string> notices_;

@@ -151,9 +151,10 @@ TEST_F(WorkFolders, OfAnotherVersionAndOtherPingsAreNotShown) {
   EXPECT_THAT(document().notices(), Contains(HasSubstr("the schools of 1 observation are shown as version test")));
   Recipe recipe;
   recipe.detect.tolerance_db = 7.0;
-  document().use_recipe(recipe);
   document().open({out_});
+  document().use_recipe(recipe);  // of what is being opened
   document().settle();
+  EXPECT_EQ(document().recipe().detect.tolerance_db, 7.0);
   EXPECT_EQ(document().as_made(1), nullptr);
 }
 

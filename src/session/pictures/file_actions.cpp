@@ -191,7 +191,11 @@ void add_calibration(AppModel& app) {
                    .tip = "Open the survey under the recipe that it had before the last change of it; once more brings "
                           "the change back",
                    .run = [&app] { take_recipe_back(app); },
-                   .enabled = [&app] { return app.workspace.document.recipe_before().has_value(); }});
+                   .enabled =
+                       [&app] {
+                         const Document& document = app.workspace.document;
+                         return !document.opening() && document.recipe_before().has_value();
+                       }});
   app.actions.add({.id = "file.setup_check",
                    .menu = kFile,
                    .text = "Setup check...",

@@ -21,7 +21,7 @@ class KeySaidApp : public testing::Test, protected TestApp {
     begin();
     paint(3, 4, 2, 2, 100);
     document().settle();
-    listening_.emplace(app_->key_said.changed(), [this] { said_.push_back(app_->key_said.text()); });
+    listening_.to(app_->key_said.changed(), [this] { said_.push_back(app_->key_said.text()); });
   }
   /// What a key says, one line after the other.
   std::vector<std::string> key(const std::string& id) {
@@ -32,7 +32,7 @@ class KeySaidApp : public testing::Test, protected TestApp {
   }
 
   std::vector<std::string> said_;
-  std::optional<Listening> listening_;
+  Listening listening_;
 };
 
 TEST_F(KeySaidApp, AnActIsSaidWithItsSchool) {
