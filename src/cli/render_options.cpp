@@ -50,10 +50,11 @@ void add_common(CLI::App& verb, RenderArguments& a) {
                         "Observation to draw, e.g. obs-0001; default: the first with schools, and of a chart all")
             ->check(some_name()),
         "slice- volume propagation observation-map timeline echogram chart frequency curves noise-steps lineage movie");
-  suits(verb.add_option("--ping", a.picture.ping,
-                        "Ping index; default: that of the strongest whole school, else the middle one, of surfaces the "
-                        "one that has most"),
-        kOfPing);
+  suits(
+      verb.add_option("--ping", a.picture.ping,
+                      "Ping index; default: that of the strongest whole school, else the middle one; for first-hit and "
+                      "volume-and-surface without schools that with the most ranges at the level"),
+      kOfPing);
   verb.add_option("--schools", a.schools, "School ids between commas; default: all")->type_name("N,N");
   auto* filtered = verb.add_flag("--filtered", a.filtered, "Noise removed; default of volumes");
   auto* unfiltered = verb.add_flag("--unfiltered", a.unfiltered, "As recorded; default of slices")->excludes(filtered);

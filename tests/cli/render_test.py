@@ -299,17 +299,32 @@ class Files(sonarx.Case):
 
     def test_a_propagation_of_nothing_is_none(self):
         make_refused()
-        for paths, why in (([sonarx.SURVEY], "schools have not been detected"), ([REFUSED], "there are no schools")):
-            self.one_line_error("render", "propagation", *paths, "--out", sonarx.WORK / "none.png", code=1, names=why)
+        for path in (sonarx.SURVEY, REFUSED):
+            self.one_line_error("render", "propagation", path, "--out", sonarx.WORK / "none.png", code=1,
+                                names="there are no schools to draw a propagation of")
 
     def test_surfaces_of_raw_files_alone_are_of_the_ping_that_has_most(self):
         """The middle ping may have none: the louder the level, the fewer pings reach it, and the last one is drawn."""
-        view = ("volume", sonarx.SURVEY, "--mode", "first-hit", "--frames", "0", "--first-hit-db")
+        view = ("volume", sonarx.SURVEY, *SIZE, "--frames", "0")
+        at = lambda db, *more: (*view, "--mode", "first-hit", "--first-hit-db", db, *more)
+        ping_of = lambda words: re.search(r"ping (\d+)", " ".join(words))[1]
         silent = lambda words: any(text.startswith("nothing reaches") for text in words)
-        middle = [ping for ping in range(14) if f"ping {ping}" in " ".join(self.words("slice-top", sonarx.SURVEY))]
-        level = next(db for db in range(-50, 0) if silent(self.words(*view, db, "--ping", max(middle))))
-        self.assertFalse(silent(self.words(*view, level)), level)
-        self.assertTrue(silent(self.words(*view, 20)))
+        middle = ping_of(self.words(*view))
+        level = next(db for db in range(-50, 0, 3) if silent(self.words(*at(db, "--ping", middle))))
+        full = self.words(*at(level))
+        self.assertFalse(silent(full), level)
+        self.assertEqual(ping_of(self.words(*view, "--mode", "volume-and-surface", "--first-hit-db", level)), ping_of(full))
+        self.assertTrue(silent(self.words(*at(20))))
+
+        def turned(*ping):
+            file = self.fresh("turned") / "t.png"
+            made = render("movie", *at(level, *ping)[1:], "--motion", "turntable", "--turntable-pictures", "2", "--each-picture",
+                          "--out", file)
+            self.assertEqual((made[0], made[2]), (0, ""), made[1])
+            return file.with_name("t-0000.png").read_bytes()
+
+        self.assertEqual(turned(), turned("--ping", ping_of(full)))
+        self.assertNotEqual(turned(), turned("--ping", middle))
 
     def test_schools_that_were_left_out_are_counted(self):
         all_of = {name: sum(row["observation"] == name for row in sonarx.read_csv(sonarx.OUT / "schools.csv"))

@@ -62,14 +62,16 @@ Result<std::unique_ptr<EchogramPyramid>> observation_echogram(DrawnObservation& 
   engine->rest();
   if (!made) return pass_on(made);
   if (whole) keep_echogram(entry, *made);
-  return std::make_unique<EchogramPyramid>(made->coarser(level));
+  return std::make_unique<EchogramPyramid>(level == 0 ? std::move(*made) : made->coarser(level));
 }
 
-std::optional<std::int64_t> fullest_ping(const EchogramPyramid& echogram, double level_db) {
+std::optional<std::int64_t> fullest_ping(const EchogramPyramid& echogram, std::span<const PingNavigation> pings,
+                                         double level_db) {
   const double level = counts_from_db(level_db);
   std::int64_t most = 0;
   std::optional<std::int64_t> fullest;
   for (std::size_t ping = 0; ping < echogram.columns(0); ++ping) {
+    if (pings[ping].bad) continue;
     std::int64_t reach = 0;
     for (int bin = 0; bin < echogram.bins(0); ++bin) {
       const EchogramCell& cell = echogram.cell(0, ping, bin);

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "base/result.h"
 #include "base/work.h"
+#include "model/navigation.h"
 #include "publish/picture_source.h"
 #include "view/timelines/echogram_pyramid.h"
 
@@ -18,8 +20,9 @@ namespace sonar {
 [[nodiscard]] Result<std::unique_ptr<EchogramPyramid>> observation_echogram(DrawnObservation& observation,
                                                                             bool filtered, int level, Work& work);
 
-/// The ping with the most ranges at which a beam reaches the level; empty where none does.
+/// The ping with the most ranges at which a beam reaches the level, bad ones left out; empty where none does.
 /// echogram  with one ping a column
-[[nodiscard]] std::optional<std::int64_t> fullest_ping(const EchogramPyramid& echogram, double level_db);
+[[nodiscard]] std::optional<std::int64_t> fullest_ping(const EchogramPyramid& echogram,
+                                                       std::span<const PingNavigation> pings, double level_db);
 
 }  // namespace sonar

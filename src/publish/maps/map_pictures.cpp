@@ -61,10 +61,8 @@ Result<FrameDescription> propagation_frame(const DrawnObservation& observation, 
   const auto sector = observation.sector();
   if (!sector) return pass_on(sector);
   if (observation.product().masks.empty()) {
-    return fail(ErrorCode::not_found, observation.has_product()
-                                          ? "there are no schools to draw a propagation of"
-                                          : "schools have not been detected: a propagation is made of products; name "
-                                            "the work folder of a run");
+    return fail(ErrorCode::not_found,
+                "there are no schools to draw a propagation of; detect them, or name the work folder of a run");
   }
   const ObservationProduct product = with_chosen_schools(observation.product(), options);
   PropagationStyle style;

@@ -10,7 +10,7 @@ namespace sonar {
 /// errors  usage: no such ping or school; not_found: no positions; bad_parameter
 [[nodiscard]] Result<FrameDescription> observation_map_frame(const DrawnObservation& observation,
                                                              const PictureOptions& options);
-/// errors  as above, not_found: schools were not looked for; unsupported: no grid
+/// errors  usage: no such ping or school; not_found: no schools; unsupported: no grid
 [[nodiscard]] Result<FrameDescription> propagation_frame(const DrawnObservation& observation,
                                                          const PictureOptions& options);
 /// errors  as above; what the depth raster refuses

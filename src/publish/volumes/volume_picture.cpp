@@ -191,21 +191,23 @@ Result<RayImage> traced(const VolumeFigure& figure, const VolumeView& view, cons
 }  // namespace
 
 Result<PictureOptions> with_ping_to_see(DrawnObservation& observation, PictureOptions options, Work& work) {
+  if (auto known = require_schools(observation, options); !known) return pass_on(known);
   const bool surfaces = ends_at_surface(options.volume.mode) && options.volume.data;
   if (options.ping || !surfaces || strongest_schools_ping(observation, options)) return options;
   const auto echogram = observation_echogram(observation, options.volume.filtered, 0, work);
   if (!echogram) return pass_on(echogram);
-  const auto ping = *echogram ? fullest_ping(**echogram, options.volume.first_hit_db) : std::nullopt;
+  const auto ping =
+      *echogram ? fullest_ping(**echogram, observation.product().pings, options.volume.first_hit_db) : std::nullopt;
   if (ping) options.ping = static_cast<int>(*ping);
   return options;
 }
 
 Result<FrameDescription> volume_frame(DrawnObservation& observation, const PictureOptions& as_asked, Work& work) {
+  const auto place = volume_place(as_asked, as_asked.scale);
+  if (!place) return pass_on(place);
   const auto seen = with_ping_to_see(observation, as_asked, work);
   if (!seen) return pass_on(seen);
   const PictureOptions& asked = *seen;
-  const auto place = volume_place(asked, asked.scale);
-  if (!place) return pass_on(place);
   const auto standing = with_standing_eye(observation, asked, *place);
   if (!standing) return pass_on(standing);
   const PictureOptions& options = *standing;

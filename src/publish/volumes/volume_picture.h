@@ -15,7 +15,8 @@ namespace sonar {
 
 /// The options with a ping at which there is something to see. Where none is asked for and no school is known, a picture of
 /// surfaces is of fullest_ping(): another may have none.
-/// errors  as observation_echogram()
+/// errors  as require_schools() and observation_echogram()
+/// cost    the observation's echogram, where that is not kept from before
 [[nodiscard]] Result<PictureOptions> with_ping_to_see(DrawnObservation& observation, PictureOptions options,
                                                       Work& work);
 
