@@ -5,8 +5,13 @@
 
 #include <QComboBox>
 #include <QTreeView>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
 
 #include "session/charts/chart_model.h"
+#include "session/slices/school_layers.h"
 #include "window_at_work.h"
 
 namespace sonar {
@@ -45,6 +50,38 @@ TEST_F(Charts, ADragSelectsTheSchoolsOfItsPointsInTheTableAndAClickGoesToAPing) 
   EXPECT_EQ(document().staged()->ping_index, ping);
   key(Qt::Key_Escape);
   EXPECT_FALSE(workspace().school());
+}
+
+TEST_F(Charts, ADragOverSomePointsSelectsTheirSchoolsAlone) {
+  show_schools();
+  std::map<SchoolName, double> begins;
+  for (std::size_t row = 0; row < chart().sight()->data.rows.size(); ++row) {
+    const auto first = begins.emplace(chart().sight()->name_of(row), place_of(row).x).first;
+    first->second = std::min(first->second, place_of(row).x);
+  }
+  double last = 0.0;
+  for (const auto& [name, x] : begins) last = std::max(last, x);
+  const double end = std::floor(last) - 2.0;  // a pointer is at whole pixels
+  std::set<SchoolName> before;
+  for (const auto& [name, x] : begins) {
+    if (x <= end) before.insert(name);
+  }
+  ASSERT_FALSE(before.empty());
+  ASSERT_LT(before.size(), begins.size());
+  const PixelRect plot = chart().sight()->places.plot.place;
+  drag("chart", {plot.x + 1.0, plot.y + 1.0}, {end, plot.y + plot.height - 1.0});
+  EXPECT_EQ(workspace().chosen_schools(), before);
+  std::size_t rings = 0;
+  raise("survey_map");
+  for (const Overlay& one : app_->picture("survey_map")->overlays())
+    if (one.circle_at) ++rings;
+  EXPECT_EQ(rings, before.size()) << "the map marks them all";
+  const SchoolName& shown = *before.begin();
+  workspace().document.look_at(document().state(shown.observation).schools.front()->masks.pings.front().ping_index);
+  settle();
+  for (const SchoolLayer& layer : school_layers(workspace(), document().ping(), light_theme({800, 600}))) {
+    EXPECT_EQ(layer.selected, before.contains({document().shown()->index(), layer.number})) << layer.title;
+  }
 }
 
 TEST_F(Charts, ItsColumnsAreChosenInTheControls) {

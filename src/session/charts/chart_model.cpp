@@ -10,6 +10,7 @@
 #include "base/number_text.h"
 #include "pipeline/tasks/survey_numbers.h"
 #include "session/looks/screen_theme.h"
+#include "session/looks/selection.h"
 #include "session/open/survey_schools.h"
 
 namespace sonar {
@@ -118,12 +119,6 @@ void ChartModel::parameters_changed() {
   update();
 }
 
-std::set<SchoolName> ChartModel::selection() const {
-  std::set<SchoolName> names = workspace_.chosen_schools();
-  if (names.empty() && workspace_.school()) names.insert(*workspace_.school());
-  return names;
-}
-
 LivePicture::Build ChartModel::build(const PictureLook& look) {
   const Document& document = workspace_.document;
   ChartWish wish;
@@ -139,7 +134,7 @@ LivePicture::Build ChartModel::build(const PictureLook& look) {
     sight_.reset();
     return {};
   }
-  const std::set<SchoolName> selected = selection();
+  const std::set<SchoolName> selected = selection(workspace_);
   for (std::size_t i = 0; i < wish.observations.size(); ++i) {
     for (const SchoolName& name : selected) {
       if (name.observation == wish.observations[i]) wish.style.selected.insert({i, name.number});
@@ -221,7 +216,7 @@ void ChartModel::release() {
 
 /// The first of them becomes the school that views and acts are about, unless the one that is belongs to them.
 void ChartModel::select(const std::vector<std::size_t>& rows, bool adds) {
-  std::set<SchoolName> names = adds ? selection() : std::set<SchoolName>{};
+  std::set<SchoolName> names = adds ? selection(workspace_) : std::set<SchoolName>{};
   const std::shared_ptr<const ChartSight> sight = sight_;  // what follows may bring another picture
   for (const std::size_t row : rows) names.insert(sight->name_of(row));
   const auto& now = workspace_.school();

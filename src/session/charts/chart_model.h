@@ -72,7 +72,6 @@ class ChartModel : public LivePicture {
   [[nodiscard]] bool in_sight() const { return sight_ && problem().empty(); }
   /// What was asked for last; its picture may still be on its way.
   [[nodiscard]] ChartPart part() const { return shown_.value_or(sight_->whole); }
-  [[nodiscard]] std::set<SchoolName> selection() const;
 
   Workspace& workspace_;
   ChartParams asked_;

@@ -8,6 +8,7 @@
 
 #include "geo/geodesic.h"
 #include "session/looks/place_text.h"
+#include "session/looks/selection.h"
 #include "session/maps/survey_map_painter.h"
 #include "session/open/survey_schools.h"
 
@@ -63,10 +64,10 @@ std::optional<SurveyMapPlaces::Ping> SurveyMapPlaces::ping_at(PixelPoint at) con
 SurveyMapModel::SurveyMapModel(Workspace& workspace)
     : LivePicture(workspace), workspace_(workspace), painter_(std::make_shared<SurveyMapPainter>()) {
   listening_.to(workspace.document.changes(), [this](DocumentChange change) { hear(change); });
-  listening_.to(workspace.cursor.changed(), [this] { changed().tell(); });
   listening_.to(workspace.tool.changed(), [this] { changed().tell(); });
   listening_.to(workspace.measurement.changed(), [this] { changed().tell(); });
   listening_.to(workspace.school.changed(), [this] { changed().tell(); });
+  listening_.to(workspace.chosen_schools.changed(), [this] { changed().tell(); });
   listening_.to(workspace.dark.changed(), [this] { update(); });
   listening_.to(workspace.depth_raster.changed(), [this] { update(); });
   listening_.to(workspace.transects.changed(), [this] { update(); });
@@ -170,8 +171,9 @@ std::vector<Overlay> SurveyMapModel::overlays() const {
   if (shown->index() < places_->tracks.size() && ping < places_->tracks[shown->index()].size()) {
     add(places_->tracks[shown->index()][ping], true);
   }
+  const std::set<SchoolName> selected = selection(workspace_);
   for (const SurveyMapPlaces::School& school : places_->schools) {
-    if (workspace_.school() == school.name) add(school.at, false);
+    if (selected.contains(school.name)) add(school.at, false);
   }
   return out;
 }

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "session/looks/selection.h"
 #include "view/school_look.h"
 
 namespace sonar {
@@ -36,16 +37,17 @@ std::vector<SchoolLayer> school_layers(const Workspace& workspace, std::int64_t 
   const Document& document = workspace.document;
   const Preview& preview = workspace.preview();
   const bool previewed = preview.mask && preview.ping_index == ping_index;
-  const auto selected = workspace.selected();
-  const auto& schools = document.state().schools;
-  for (std::size_t i = 0; i < schools.size() && display.masks; ++i) {
-    const auto& school = schools[i];
+  if (!document.shown()) return layers;
+  const std::size_t observation = document.shown()->index();
+  const std::set<SchoolName> selected = selection(workspace);
+  for (const auto& school : document.state().schools) {
+    if (!display.masks) break;
     const auto* there = in_ping(school->masks, ping_index);
     const bool rejected = school->masks.decided.status == "rejected";
     const bool replaced = previewed && preview.instead_of == school->number;
     if (there == nullptr || replaced || (rejected && !display.rejected)) continue;
     // The mask lives in the school, which the layer keeps.
-    layers.push_back({school->number, i == selected,
+    layers.push_back({school->number, selected.contains({observation, school->number}),
                       mask_layer(std::shared_ptr<const PingMask>(school, &there->mask), drawn_colour(*school, theme),
                                  school->masks.decided.status),
                       school_title(*school), !rejected});

@@ -23,6 +23,7 @@ SliceModel::SliceModel(SliceKind kind, Workspace& workspace, SeedTool& seed, Bru
   const auto recolour = [this] { forget_colours(); };
   listening_.to(workspace.slices.changed(), anew);
   listening_.to(workspace.school.changed(), anew);
+  listening_.to(workspace.chosen_schools.changed(), anew);
   listening_.to(workspace.echo.changed(), anew);
   listening_.to(workspace.preview.changed(), anew);
   listening_.to(workspace.dark.changed(), anew);

@@ -12,6 +12,7 @@
 #include "publish/movies/between_pings.h"
 #include "publish/volumes/volume_figure.h"
 #include "session/looks/screen_theme.h"
+#include "session/looks/selection.h"
 #include "session/review/refused_layer.h"
 #include "session/slices/school_layers.h"
 #include "view/theme.h"
@@ -48,12 +49,11 @@ TrailSubject trail_subject(const Workspace& workspace, const OpenObservationPtr&
                    document.recipe().navigation.beams_stabilised,
                    {}};
   const DisplayParams& display = workspace.display.values();
-  const auto selected = workspace.selected();
-  const auto& schools = document.state().schools;
-  for (std::size_t i = 0; i < schools.size() && display.masks; ++i) {
-    const auto& school = schools[i];
+  const std::set<SchoolName> selected = selection(workspace);
+  for (const auto& school : document.state().schools) {
+    if (!display.masks) break;
     if (school->masks.decided.status == "rejected" && !display.rejected) continue;
-    TrailSchool trail{school, drawn_colour(*school, theme), i == selected, {}};
+    TrailSchool trail{school, drawn_colour(*school, theme), selected.contains({shown->index(), school->number}), {}};
     for (const auto& there : school->masks.pings) trail.pings.push_back({there.ping_index, &there.mask});
     out.schools.push_back(std::move(trail));
   }

@@ -48,7 +48,7 @@ VolumeModel::VolumeModel(Workspace& workspace, LiveVolume::MakeRenderer make)
   for (Listeners<>* changed :
        {&workspace.motion.changed(), &workspace.view_curve.changed(), &workspace.preview.changed(),
         &workspace.dark.changed(), &workspace.curve_follows_scale.changed(), &workspace.school.changed(),
-        &workspace.echo.changed(), &workspace.depth_raster.changed()}) {
+        &workspace.chosen_schools.changed(), &workspace.echo.changed(), &workspace.depth_raster.changed()}) {
     listening_.to(*changed, [this] { update(); });
   }
   for (Listeners<>* changed_over :
