@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <QAction>
+#include <QCheckBox>
 #include <QComboBox>
 #include <algorithm>
 #include <cmath>
@@ -104,6 +105,44 @@ TEST_F(VolumeInTheWindow, IsCutOpenFromThePanel) {
   QTest::keyClick(&clip, Qt::Key_Up);
   settle();
   EXPECT_EQ(known(), whole);
+}
+
+// The panel's own switches, by hand: each changes the picture, and back.
+TEST_F(VolumeInTheWindow, ShowsWhatThePanelSwitches) {
+  EXPECT_TRUE(workspace().volume.values().lighting) << "by default";
+  for (const char* name : {"lighting", "slice_planes", "seabed", "context"}) {
+    QCheckBox& box = control<QCheckBox>("Volume", name);
+    const Image before = model().image();
+    box.setFocus(Qt::TabFocusReason);
+    QTest::keyClick(&box, Qt::Key_Space);
+    settle();
+    EXPECT_NE(model().image(), before) << name;
+    QTest::keyClick(&box, Qt::Key_Space);
+    settle();
+    EXPECT_EQ(model().image(), before) << name;
+  }
+}
+
+TEST_F(VolumeInTheWindow, ComesNearerByKeysAsEveryViewDoes) {
+  const Camera first = model().shown()->view.camera;
+  view("volume")->setFocus(Qt::TabFocusReason);
+  key(Qt::Key_Plus, Qt::ControlModifier);
+  const Camera nearer = model().shown()->view.camera;
+  EXPECT_LT(norm(nearer.eye - nearer.target), norm(first.eye - first.target));
+  key(Qt::Key_Minus, Qt::ControlModifier);
+  EXPECT_NEAR(norm(model().shown()->view.camera.eye - first.eye), 0.0, 1.0);
+}
+
+// A school without a mouse: the slices are moved to it by keys, which the tests of slices hold.
+TEST_F(VolumeInTheWindow, ASchoolGrowsWhereTheSlicesCross) {
+  workspace().slices.set({target_.voxel.fan, target_.voxel.beam, target_.voxel.sample});
+  settle();
+  view("volume")->setFocus(Qt::TabFocusReason);
+  key(Qt::Key_S, Qt::ShiftModifier);
+  ASSERT_EQ(document().state().schools.size(), 1U);
+  EXPECT_EQ(workspace().selected(), std::size_t{0});
+  const auto& seeds = (*document().choices().lines->back().args)["seeds"];
+  EXPECT_EQ(seeds[0]["sample"], target_.voxel.sample);
 }
 
 // A school that is clicked has its number and its drop line: what is drawn differs from the school without them.

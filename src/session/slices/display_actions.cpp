@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "session/slices/slice_actions.h"
 #include "session/slices/slice_model.h"
 
@@ -23,6 +27,20 @@ void add_scale(AppModel& app, const char* id, const char* text, const char* key,
                      app.workspace.curve_follows_scale.set(true);
                      change_display(app, change);
                    }});
+}
+
+/// As fingers that spread over the middle of the view.
+void add_zoom(AppModel& app, const char* id, const char* text, std::vector<std::string> keys, double factor) {
+  app.actions.add({id, kMenu, text, std::move(keys), "The view that has the keyboard, about its middle",
+                   [&app, factor] {
+                     LivePicture* view = app.dialogs.view_in_use ? app.picture(app.dialogs.view_in_use()) : nullptr;
+                     if (view == nullptr) return;
+                     const PixelSize size = view->size();
+                     PointerEvent zoom{PointerAction::zoom, PointerButton::none, {0.5 * size.width, 0.5 * size.height}};
+                     zoom.factor = factor;
+                     view->pointer(zoom);
+                   },
+                   [&app] { return app.workspace.document.survey() != nullptr; }});
 }
 
 template <class P>
@@ -81,6 +99,8 @@ void add_display_actions(AppModel& app) {
                      }
                    },
                    [&app] { return app.workspace.document.shown() != nullptr; }});
+  add_zoom(app, "view.nearer", "Zoom in", {"Ctrl++", "Ctrl+="}, 1.25);
+  add_zoom(app, "view.farther", "Zoom out", {"Ctrl+-"}, 0.8);
   Parameters<TimelineLimits>& timelines = app.workspace.timelines;
   add_switch(app, "timelines.filtered", "Timelines: filtered data", "Shift+F8", timelines, &TimelineLimits::filtered);
   add_switch(app, "timelines.maximum", "Timelines: maximum over beams", "Ctrl+F8", timelines, &TimelineLimits::maximum);

@@ -97,6 +97,17 @@ void add_tool_actions(AppModel& app) {
       app, "tool.seed", "Seed", "S",
       "A click grows a school, a double click follows it through time; Shift adds, Ctrl takes away, Alt selects only",
       ToolName::seed);
+  Workspace& workspace = app.workspace;
+  app.actions.add({"tool.seed_here",
+                   kMenu,
+                   "Seed where the slices cross",
+                   {"Shift+S"},
+                   "As a click with the seed tool on the voxel at the fan, beam and range of the slices",
+                   [&app, &workspace] {
+                     const SlicePlaces at = workspace.slices();
+                     app.seed_tool->press({at.fan, at.beam, at.sample}, false, false, false);
+                   },
+                   [&workspace] { return workspace.document.staged() != nullptr; }});
   add_tool(app, "tool.brush", "Brush", "B", "Paints voxels into the selected school, or into a new one",
            ToolName::brush);
   add_tool(app, "tool.eraser", "Eraser", "E", "Takes voxels from the selected school, or from all", ToolName::eraser);
