@@ -60,11 +60,15 @@ void add_ticks(FrameDescription& frame, const BarAxis& axis, const Ticks& ticks,
   add_tick(frame, axis, axis.top, end_decimals, true, theme);
 }
 
-/// Beside a short bar it is cut: above lies the title.
-void add_label(FrameDescription& frame, const PixelRect& place, const Theme& theme, const std::string& label) {
+/// Beside a short bar it is cut, for above lies the title: first what its decibels refer to, then by whole words.
+void add_label(FrameDescription& frame, const PixelRect& place, const Theme& theme, std::string label) {
+  const double room = place.height + 1.6 * theme.text_px;
+  const auto refers = label.find(" re ");
+  if (refers != std::string::npos && text_width_px(label.c_str(), theme.text_px) > room) {
+    label.replace(refers, label.find(')', refers) - refers, "");
+  }
   TextItem item = text_item({place.x + place.width + 4.7 * theme.text_px, place.y + place.height / 2},
-                            elided(label, theme.text_px, place.height + 1.6 * theme.text_px), theme.text_px,
-                            theme.muted, TextAnchor::centre);
+                            elided_line(label, theme.text_px, room), theme.text_px, theme.muted, TextAnchor::centre);
   item.turned_deg = -90.0;
   frame.items.emplace_back(std::move(item));
 }

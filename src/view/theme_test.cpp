@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "view/colour_map.h"
+#include "view/contrast_example.h"
 
 namespace sonar {
 namespace {
@@ -103,6 +104,13 @@ TEST(SchoolColours, ComeRoundAfterTwentyFour) {
   EXPECT_EQ(school_colour(-1), school_colour(23));
   EXPECT_NE(school_colour(13), school_colour(1));
   EXPECT_NE(school_colour(8), school_colour(1));
+}
+
+// Of some schools' colours the rim is all that a chart's marks have.
+TEST(Theme, RimsOfMarksStandOutFromThePlot) {
+  for (const Theme& theme : {light_theme({800, 600}), dark_theme({800, 600})}) {
+    EXPECT_GE(contrast_example::contrast(theme.axis, theme.plot), 3.0);
+  }
 }
 
 }  // namespace

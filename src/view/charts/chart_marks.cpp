@@ -44,7 +44,8 @@ double radius_px(std::size_t rows, const Theme& theme) {
 
 PathItem mark(PixelPoint at, double radius, Rgba8 colour, bool hollow, const Theme& theme) {
   if (hollow) return disc(at, radius, {0, 0, 0, 0}, {colour, 1.2 * theme.line_px, {}});
-  return disc(at, radius, colour, {{0, 0, 0, 0}, 0.0, {}});
+  // Of some colours the rim is all that stands out from the plot.
+  return disc(at, radius, colour, {theme.axis, 0.6 * theme.line_px, {}});
 }
 
 /// Points that no eye tells apart have one name.
