@@ -6,6 +6,7 @@
 #include <QScrollBar>
 #include <QShortcut>
 #include <QSplitter>
+#include <QTabBar>
 #include <utility>
 
 #include "gui/picture_view.h"
@@ -70,6 +71,7 @@ PageWindow::PageWindow(AppModel& app, const char* name, const char* title) : Own
   scroll->setWidget(inside_);
   results_ = new QTabWidget(halves);
   results_->setObjectName("results");
+  results_->tabBar()->setAccessibleName(translated("Results"));
   halves->addWidget(scroll);
   halves->addWidget(results_);
   halves->setStretchFactor(1, 1);

@@ -46,6 +46,7 @@ class SaidLabel : public QLabel {
     setAttribute(Qt::WA_TransparentForMouseEvents);
     setAutoFillBackground(true);
     setMargin(5);
+    setWordWrap(true);
     QPalette colours;
     colours.setColor(QPalette::Window, QColor(20, 24, 28));
     colours.setColor(QPalette::WindowText, Qt::white);
@@ -55,8 +56,9 @@ class SaidLabel : public QLabel {
   }
   void say(const QString& text) {
     const int width = parentWidget()->width();
-    setText(fontMetrics().elidedText(text, Qt::ElideRight, width - 4 * margin()));
-    adjustSize();
+    setText(text);
+    const int wide = std::min(width - 2 * margin(), fontMetrics().horizontalAdvance(text) + 4 * margin());
+    setFixedSize(wide, heightForWidth(wide));
     move((width - this->width()) / 2, kFromTop_px);
     show();
     raise();

@@ -119,9 +119,11 @@ TEST_F(Access, WhateverCanHaveTheKeyboardHasAName) {
   }
   in_every_dialog(
       [](QDialog& dialog) { EXPECT_THAT(nameless(dialog), IsEmpty()) << dialog.objectName().toStdString(); });
-  QWidget* batch = batch_window();
-  ASSERT_NE(batch, nullptr);
-  EXPECT_THAT(nameless(*batch), IsEmpty());
+  ASSERT_NE(batch_window(), nullptr);
+  app_->dialogs.show_integration();
+  app_->dialogs.show_biomass();
+  settle();
+  for (QWidget* top : QApplication::topLevelWidgets()) EXPECT_THAT(nameless(*top), IsEmpty()) << name_of(*top);
   QLineEdit without(window_.get());
   without.show();
   EXPECT_THAT(nameless(*window_), testing::SizeIs(1)) << "one without a name is found";
