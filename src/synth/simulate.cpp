@@ -70,18 +70,24 @@ Result<SimulateResult> simulate_survey(const std::filesystem::path& out, const S
                                        Work& work) {
   const auto scenes = survey_scenes(params, beams);
   if (!scenes) return pass_on(scenes);
+  return simulate_scenes(out, *scenes, params, beams, force, program_version, work);
+}
+
+Result<SimulateResult> simulate_scenes(const std::filesystem::path& out, const std::vector<Scene>& scenes,
+                                       const SurveyParams& params, const std::vector<Beam>& beams, bool force,
+                                       const std::string& program_version, Work& work) {
   std::uint64_t bytes = 0;
-  for (const Scene& scene : *scenes) bytes += bytes_of(scene, scene.beams);
+  for (const Scene& scene : scenes) bytes += bytes_of(scene, scene.beams);
   auto folder = SurveyFolder::prepare(out, force, bytes);
   if (!folder) return pass_on(folder);
 
   SimulateResult result;
   std::int64_t pings_in_all = 0;
-  for (const Scene& scene : *scenes) pings_in_all += scene.pings;
+  for (const Scene& scene : scenes) pings_in_all += scene.pings;
   SurveyFiles files(out, sounder_config(sounding_beams(beams, params.beam_pattern), kSurveyName), params.file_mb);
   SurveyTruth truth(out / "truth", kSurveyName, program_version);
-  for (std::size_t i = 0; i < scenes->size(); ++i) {
-    const SyntheticSonar sonar((*scenes)[i]);
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const SyntheticSonar sonar(scenes[i]);
     ObservationTruth observation(fmt::format("obs-{:04d}", i + 1));
     const auto written = write_observation(sonar, files, observation, result.pings, pings_in_all, work);
     if (!written) return pass_on(written);
@@ -94,7 +100,7 @@ Result<SimulateResult> simulate_survey(const std::filesystem::path& out, const S
   if (auto closed = files.close(); !closed) return pass_on(closed);
   if (auto done = truth.finish(); !done) return pass_on(done);
   const std::filesystem::path depths = out / "truth" / "depth.tif";
-  if (auto done = write_depth_raster(depths, seabed_grid(*scenes), "SYNTHETIC seabed"); !done) return pass_on(done);
+  if (auto done = write_depth_raster(depths, seabed_grid(scenes), "SYNTHETIC seabed"); !done) return pass_on(done);
   result.files = files.files();
   result.bytes = files.bytes();
   result.schools = truth.schools();

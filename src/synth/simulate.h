@@ -20,5 +20,9 @@ namespace sonar::synth {
 [[nodiscard]] Result<SimulateResult> simulate_survey(const std::filesystem::path& out, const SurveyParams& params,
                                                      const std::vector<Beam>& beams, bool force,
                                                      const std::string& program_version, Work& work);
+/// The same of scenes that are there already: survey_scenes(), or part of them.
+[[nodiscard]] Result<SimulateResult> simulate_scenes(const std::filesystem::path& out, const std::vector<Scene>& scenes,
+                                                     const SurveyParams& params, const std::vector<Beam>& beams,
+                                                     bool force, const std::string& program_version, Work& work);
 
 }  // namespace sonar::synth
