@@ -16,7 +16,10 @@ class Displays(sonarx.Case):
         log = self.fresh("displays") / "log"
         log.touch()
         ended = render("volume", *BOTH, *SIZE, "--frames", "0", "--renderer", "gl", "--out", log.with_name("x.png"),
-                       environment={"LD_LIBRARY_PATH": SHIM, "SONAR_EGL_LOG": str(log), **environment})
+                       environment={"LD_LIBRARY_PATH": os.pathsep.join(filter(None, [SHIM, os.environ.get("LD_LIBRARY_PATH")])),
+                                    "SONAR_EGL_LOG": str(log), **environment})
+        if "OpenGL is not installed" in ended[2]:
+            self.skipTest(ended[2].strip())
         return log.read_text().splitlines(), ended
 
     def test_cards_come_before_mesa_and_none_draws_by_software(self):

@@ -4,10 +4,8 @@
 #include <QCommandLinkButton>
 #include <QLabel>
 #include <QPushButton>
-#include <QScopeGuard>
 #include <QToolButton>
 
-#include "gui/action_menus.h"
 #include "window_at_work.h"
 
 namespace sonar {
@@ -63,31 +61,43 @@ TEST_F(StartPage, OpensWhatWasOpenBeforeAtAClick) {
 }
 
 // Another survey stands for the demo, which takes longer to make than a test may.
-TEST_F(StartPage, TheDemoAndItsTutorialAreAClickAway) {
-  const std::filesystem::path cache = TestSurvey::easy().fresh();
-  const std::filesystem::path made = cache / "sonar-explorer" / "demo-test";
-  std::filesystem::create_directories(made);
-  std::filesystem::copy(TestSurvey::easy().folder(), made, std::filesystem::copy_options::recursive);
-  std::filesystem::create_directories(made / "truth" / "complete");
-  const QByteArray before = qgetenv("XDG_CACHE_HOME");
-  const auto put_back =
-      qScopeGuard([&before] { before.isNull() ? qunsetenv("XDG_CACHE_HOME") : qputenv("XDG_CACHE_HOME", before); });
-  qputenv("XDG_CACHE_HOME", cache.c_str());
-  auto* demo = window_->findChild<QPushButton*>("start.file.demo");
-  ASSERT_TRUE(demo->isVisible());
-  click_on(demo, {0.5 * demo->width(), 0.5 * demo->height()});
-  EXPECT_TRUE(document().staged());
-  EXPECT_EQ(document().paths(), std::vector{made});
-  EXPECT_FALSE(page()->isVisible());
+class DemoOnStartPage : public StartPage {
+ protected:
+  void SetUp() override {
+    StartPage::SetUp();
+    std::filesystem::create_directories(made_);
+    std::filesystem::copy(TestSurvey::easy().folder(), made_, std::filesystem::copy_options::recursive);
+    std::filesystem::create_directories(made_ / "truth" / "complete");
+    qputenv("XDG_CACHE_HOME", cache_home_.c_str());
+  }
+  void TearDown() override {
+    before_.isNull() ? qunsetenv("XDG_CACHE_HOME") : qputenv("XDG_CACHE_HOME", before_);
+    StartPage::TearDown();
+  }
+  void push(const char* name) {
+    auto* button = window_->findChild<QPushButton*>(name);
+    ASSERT_NE(button, nullptr);
+    ASSERT_TRUE(button->isVisible());
+    click_on(button, {0.5 * button->width(), 0.5 * button->height()});
+    EXPECT_TRUE(document().staged());
+    EXPECT_EQ(document().paths(), std::vector{made_});
+    EXPECT_FALSE(page()->isVisible());
+  }
+  const QByteArray before_ = qgetenv("XDG_CACHE_HOME");
+  std::filesystem::path cache_home_ = TestSurvey::easy().fresh();
+  std::filesystem::path made_ = cache_home_ / "sonar-explorer" / "demo-test";
+};
+
+TEST_F(DemoOnStartPage, IsAClickAway) { push("start.file.demo"); }
+
+TEST_F(DemoOnStartPage, SoIsItsTutorial) {
   std::filesystem::path shown;
   app_->dialogs.show_page = [&shown](const std::filesystem::path& page) {
     shown = page;
     return true;
   };
-  find_action(*window_, "help.tutorial")->trigger();
-  settle();
+  ASSERT_NO_FATAL_FAILURE(push("start.help.tutorial"));
   EXPECT_EQ(shown.filename(), "tutorial.md");
-  EXPECT_EQ(document().paths(), std::vector{made});
 }
 
 TEST_F(StartPage, IsUsedByKeysAlone) {

@@ -21,7 +21,8 @@ constexpr const char* kAlways = "EGL_EXT_client_extensions EGL_EXT_platform_base
 EGLDeviceEXT device(std::intptr_t index) { return reinterpret_cast<EGLDeviceEXT>(index + 1); }
 
 void log(const std::string& line) {
-  std::FILE* file = std::fopen(std::getenv("SONAR_EGL_LOG"), "a");
+  const char* to = std::getenv("SONAR_EGL_LOG");
+  std::FILE* file = to == nullptr ? nullptr : std::fopen(to, "a");
   if (file == nullptr) return;
   std::fprintf(file, "%s\n", line.c_str());
   std::fclose(file);

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "publish/movies/movie_plan.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <set>
 #include <string>
+#include <variant>
 
 #include "io/product_example.h"
+#include "publish/movies/movie.h"
 
 namespace sonar {
 namespace {
@@ -87,6 +90,33 @@ TEST_F(PingsOfMovie, ThatAreNotThereAreRefused) {
   options_.kind.movie.first_ping = 5;
   options_.kind.movie.last_ping = 4;
   EXPECT_THAT(text(), HasSubstr("last ping, 4, lies before its first, 5"));
+}
+
+// Whoever watches knows what was measured and what was not.
+TEST_F(PingsOfMovie, AnInterpolatedPictureSaysSo) {
+  Work work(1);
+  options_.kind.movie.of = MovieOf::slice_top;
+  options_.kind.movie.between = 2;
+  for (const int width : {900, 360}) {
+    options_.size = {width, 480};
+    const auto movie = Movie::of(*source_, "", options_, work);
+    ASSERT_TRUE(movie) << to_line(movie.error());
+    for (std::size_t picture = 0; picture < 7; ++picture) {
+      const auto frame = movie->picture(picture, work);
+      ASSERT_TRUE(frame) << to_line(frame.error());
+      std::string marks;
+      for (const auto& item : frame->items) {
+        const auto* text = std::get_if<TextItem>(&item);
+        if (text != nullptr && text->text.find("interpolated") != std::string::npos) marks += text->text;
+      }
+      const std::string mark = fmt::format("interpolated between pings {} and {}", picture / 3, picture / 3 + 1);
+      if (picture % 3 == 0) {
+        EXPECT_EQ(marks, "") << picture;
+      } else {
+        EXPECT_THAT(marks, testing::StartsWith(mark)) << picture;
+      }
+    }
+  }
 }
 
 TEST(MoviePlan, WhatDoesNotGoTogetherIsOneLine) {

@@ -57,6 +57,15 @@ void choose_trails(int view, VolumeFigure& figure, PictureOptions& options) {
   options.volume.trail_pings = view % 5;
 }
 
+CameraParams from_anywhere(std::mt19937& random, double least_zoom, double most_zoom) {
+  const auto even = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  CameraParams out;
+  out.orbit_deg = even(-180.0, 180.0);
+  out.rise_deg = even(-70.0, 40.0);
+  out.zoom = even(least_zoom, most_zoom);
+  return out;
+}
+
 /// The frame of a figure without echoes.
 FrameDescription frame_of(const VolumeFigure& figure, const PictureOptions& options) {
   Work work(1);
@@ -102,24 +111,24 @@ std::vector<PixelPoint> seen_of(const VolumeFigure& figure, const VolumePlace& p
 }
 
 // Law: in 200 random views no words in the volume lie on others, on a school, or beyond its edge: labels, numbers of
-// schools, legend and scale bar.
+// schools, legend, scale bar and, in every tenth view, why nothing is there.
 TEST(VolumeFigure, NothingLiesOnAnythingInTwoHundredViews) {
-  VolumeFigure figure = schools_alone(7);
   std::mt19937 random(20200105);
-  const auto even = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   int numbers = 0;
   int legends = 0;
   int tracks = 0;
   int bars = 0;
+  int whys = 0;
   for (int view = 0; view < 200; ++view) {
+    const bool nothing = view % 10 == 9;
+    VolumeFigure figure = schools_alone(nothing ? 0 : 7);
     PictureOptions options;
+    options.volume.data = !nothing;
     options.size = view % 2 == 0 ? PixelSize{640, 400} : PixelSize{900, 700};
     options.dark = view % 3 == 0;
     options.volume.drop_lines = DropLines::all;
     choose_trails(view, figure, options);
-    options.kind.volume.orbit_deg = even(-180.0, 180.0);
-    options.kind.volume.rise_deg = even(-70.0, 40.0);
-    options.kind.volume.zoom = even(0.6, 2.5);
+    options.kind.volume = from_anywhere(random, 0.6, 2.5);
     const auto place = volume_place(options);
     ASSERT_TRUE(place);
     const PixelSize size{static_cast<int>(place->rect.width), static_cast<int>(place->rect.height)};
@@ -135,14 +144,16 @@ TEST(VolumeFigure, NothingLiesOnAnythingInTwoHundredViews) {
       numbers += text.text.size() == 1 ? 1 : 0;
       legends += text.text == "fuzzy area" ? 1 : 0;
       tracks += text.text == "track of the ship" ? 1 : 0;
+      whys += text.text.starts_with("no masks: ") ? 1 : 0;
       bar = bar || text.text.ends_with("at the view's centre");
     }
     bars += bar ? 1 : 0;
   }
   EXPECT_GT(numbers, 500);
-  EXPECT_GT(legends, 190);
+  EXPECT_GT(legends, 170);
   EXPECT_GT(tracks, 140);
   EXPECT_GT(bars, 190);
+  EXPECT_EQ(whys, 20);
 }
 
 /// Whether words are others' beginning that ends where a word ends, or all of them.
@@ -202,16 +213,13 @@ TEST(VolumeFigure, LegendAndScaleBarKeepOffTheSectorInTwoHundredViews) {
   figure.names.erase(figure.names.begin());
   figure.legend.erase(figure.legend.begin());
   std::mt19937 random(20200106);
-  const auto even = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   constexpr std::array<PixelSize, 4> kSizes{{{400, 300}, {600, 400}, {720, 560}, {1280, 800}}};
   int rooms = 0;
   int bars = 0;
   for (int view = 0; view < 200; ++view) {
     PictureOptions options;
     options.size = view % 50 == 49 ? PixelSize{3840, 2160} : kSizes[static_cast<std::size_t>(view) % kSizes.size()];
-    options.kind.volume.orbit_deg = even(-180.0, 180.0);
-    options.kind.volume.rise_deg = even(-70.0, 40.0);
-    options.kind.volume.zoom = even(0.4, 1.4);
+    options.kind.volume = from_anywhere(random, 0.4, 1.4);
     options.volume.ship_length_m = 1.0;  // kept off too; here the sector alone is looked at
     choose_trails(view, figure, options);
     const auto place = volume_place(options);

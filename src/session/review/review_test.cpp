@@ -58,24 +58,18 @@ class ReviewAtWork : public testing::Test, protected TestApp {
 
 TEST_F(ReviewAtWork, AFreshUserReviewsAHundredSchoolsWithTwoKeysEachAtMost) {
   paint_schools(100);
-  int keys = 0;
-  const auto key = [&](const std::string& id) {
-    press(id);
-    ++keys;
-  };
-  key("review.next");
+  press("review.next");
   for (int i = 0; i < 100; ++i) {
     // Faster than the program carries it out: nothing is drained between the keys.
-    key("review.species." + std::to_string(1 + i % 3));
-    key(i % 4 == 3 ? "review.reject" : "review.accept");
+    press("review.species." + std::to_string(1 + i % 3));
+    press(i % 4 == 3 ? "review.reject" : "review.accept");
   }
   document().settle();
-  EXPECT_LE(keys, 201) << "and one to begin with";
   EXPECT_EQ(with_status("accepted"), 75);
   EXPECT_EQ(with_status("rejected"), 25);
   for (const auto& school : document().state().schools) EXPECT_FALSE(school->masks.decided.species.empty());
   EXPECT_EQ(review().unreviewed(), 0U);
-  key("review.next");
+  press("review.next");
   EXPECT_EQ(document().notices().back(), "every school is reviewed");
 }
 
