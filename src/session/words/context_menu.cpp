@@ -72,7 +72,7 @@ constexpr std::array<ActionGroup, 2> kJournal{kUndo, kRows};
 constexpr std::array<ActionGroup, 1> kNotes{kRows};
 
 /// Of the menu bar: the first of what belongs together, after others.
-constexpr std::array<Id, 38> kBegin{"edit.undo",
+constexpr std::array<Id, 40> kBegin{"edit.undo",
                                     "transects.open",
                                     "file.recipe",
                                     "file.calibration",
@@ -87,6 +87,8 @@ constexpr std::array<Id, 38> kBegin{"edit.undo",
                                     "map.all",
                                     "chart.columns",
                                     "noise.choose",
+                                    "slices.lock",
+                                    "tool.larger",
                                     "view.top_slice",
                                     "view.dark",
                                     "ping.play",
