@@ -57,7 +57,7 @@ class SaidLabel : public QLabel {
   void say(const QString& text) {
     const int width = parentWidget()->width();
     setText(text);
-    const int wide = std::min(width - 2 * margin(), fontMetrics().horizontalAdvance(text) + 4 * margin());
+    const int wide = std::min(std::max(1, width - 2 * margin()), fontMetrics().horizontalAdvance(text) + 4 * margin());
     setFixedSize(wide, heightForWidth(wide));
     move((width - this->width()) / 2, kFromTop_px);
     show();

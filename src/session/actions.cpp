@@ -70,6 +70,15 @@ void Actions::take_keys(const Keys& keys) {
   for (const auto& [id, own] : keys) {
     if (find(id) != nullptr) set_keys(id, {});
   }
+  // What a user chose goes before what an action has come with since.
+  const auto chosen = [&](const std::string& key) {
+    return std::ranges::any_of(
+        keys, [&](const auto& one) { return find(one.first) != nullptr && std::ranges::count(one.second, key) > 0; });
+  };
+  for (const Action& action : list_) {
+    std::vector<std::string> left = action.keys;
+    if (std::erase_if(left, chosen) > 0) set_keys(action.id, left);
+  }
   for (const auto& [id, own] : keys) set_keys(id, own);
   keys_changed_.tell();
 }

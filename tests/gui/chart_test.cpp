@@ -77,9 +77,14 @@ TEST_F(Charts, ADragOverSomePointsSelectsTheirSchoolsAlone) {
     if (one.circle_at) ++rings;
   EXPECT_EQ(rings, before.size()) << "the map marks them all";
   const SchoolName& shown = *before.begin();
-  workspace().document.look_at(document().state(shown.observation).schools.front()->masks.pings.front().ping_index);
+  const auto& schools = document().state(shown.observation).schools;
+  const auto school = std::ranges::find_if(schools, [&](const auto& one) { return one->number == shown.number; });
+  ASSERT_NE(school, schools.end());
+  ASSERT_TRUE(document().show(shown.observation, (*school)->masks.pings.front().ping_index));
   settle();
-  for (const SchoolLayer& layer : school_layers(workspace(), document().ping(), light_theme({800, 600}))) {
+  const auto layers = school_layers(workspace(), document().ping(), light_theme({800, 600}));
+  ASSERT_FALSE(layers.empty());
+  for (const SchoolLayer& layer : layers) {
     EXPECT_EQ(layer.selected, before.contains({document().shown()->index(), layer.number})) << layer.title;
   }
 }

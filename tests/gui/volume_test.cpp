@@ -143,6 +143,9 @@ TEST_F(VolumeInTheWindow, ASchoolGrowsWhereTheSlicesCross) {
   EXPECT_EQ(workspace().selected(), std::size_t{0});
   const auto& seeds = (*document().choices().lines->back().args)["seeds"];
   EXPECT_EQ(seeds[0]["sample"], target_.voxel.sample);
+  document().look_at(document().ping() + 1);
+  settle();
+  EXPECT_FALSE(workspace().preview().mask) << "no pointer is there";
 }
 
 // A school that is clicked has its number and its drop line: what is drawn differs from the school without them.

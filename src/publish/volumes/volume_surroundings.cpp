@@ -50,6 +50,7 @@ double seabed_z_m(const VolumeFigure& figure, const Point<Sonar>& place) {
 
 std::vector<SchoolPlace> school_places(const VolumeFigure& figure, DropLines drop_lines, const Unit& unit) {
   std::vector<SchoolPlace> out;
+  bool named = false;  // of several that are selected the first alone is always named
   for (std::size_t i = 0; i < figure.masks.size() && i < figure.names.size(); ++i) {
     const MaskLayer& layer = figure.masks[i];
     if (figure.names[i].empty() || !layer.mask) continue;
@@ -57,7 +58,7 @@ std::vector<SchoolPlace> school_places(const VolumeFigure& figure, DropLines dro
     if (!place) continue;
     const auto byte = [&](std::size_t k) { return static_cast<std::uint8_t>(std::lround(layer.rgb[k] * 255.0F)); };
     place->colour = {byte(0), byte(1), byte(2), 255};
-    place->selected = layer.selected;
+    place->selected = layer.selected && !std::exchange(named, named || layer.selected);
     place->name = figure.names[i];
     place->drop_line = drop_lines == DropLines::all || (drop_lines == DropLines::selected && layer.selected);
     if (place->drop_line) {

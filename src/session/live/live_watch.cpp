@@ -161,6 +161,7 @@ void LiveWatch::take(const Seen& seen) {
   if (seen.survey) {
     const bool follows = at_newest() || chasing_ || !document.shown();
     if (!document.grow(seen.survey)) {
+      if (document.opening()) return;  // what was asked for meanwhile is not lost
       // A file before the others, say: as good as another survey.
       follow_next();
       const auto paths = document.paths();

@@ -273,13 +273,15 @@ void Document::take(SurveyRead read, bool recipe_chosen,
 
 void Document::use_recipe(Recipe recipe) {
   const auto asked = std::make_shared<const Recipe>(std::move(recipe));
-  if (survey() == nullptr) asked_recipe_ = asked;
   if (opening_) {
     Opening again = *opening_;
     again.recipe = asked;
     return read(std::move(again));
   }
-  if (survey() == nullptr) return;
+  if (survey() == nullptr) {
+    asked_recipe_ = asked;
+    return;
+  }
   std::optional<std::pair<std::size_t, std::int64_t>> back_to;
   if (shown()) back_to = {shown()->index(), ping()};
   read({survey()->raw_gone.empty() ? paths() : named(), {}, back_to, asked, this->recipe()});
@@ -318,7 +320,7 @@ void Document::open_glanced(std::size_t observation) {
   if (!glance_ || observation >= glance_->observations.size()) return;
   std::vector<std::filesystem::path> files;
   for (const std::uint32_t file : glance_->observations[observation].files) files.push_back(glance_->files[file].path);
-  open(std::move(files));
+  read({std::move(files), {}, std::nullopt, opening_ ? opening_->recipe : asked_recipe_, std::nullopt});
 }
 
 Progress Document::activity() const { return progress_.stage.empty() ? survey_->activity() : progress_; }

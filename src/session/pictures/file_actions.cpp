@@ -183,7 +183,12 @@ void add_calibration(AppModel& app) {
                    .keys = {},
                    .tip = "Parameters of noise removal, detection and measuring: the survey is opened anew under them, "
                           "decisions stay",
-                   .run = [&app] { change_recipe(app); }});
+                   .run = [&app] { change_recipe(app); },
+                   .enabled =
+                       [&app] {
+                         const Document& document = app.workspace.document;
+                         return !document.opening() || document.survey() == nullptr;
+                       }});
   app.actions.add({.id = "file.recipe_before",
                    .menu = kFile,
                    .text = "Recipe before",

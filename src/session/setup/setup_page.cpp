@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "publish/setup_pictures.h"
+#include "session/live/live_watch.h"
 #include "session/looks/screen_theme.h"
 
 namespace sonar {
@@ -84,6 +85,8 @@ Result<void> SetupPage::use(bool mounting_angle, bool sound_speed) {
     recipe.survey.sound_speed_profile.clear();
   }
   if (auto valid = validate_recipe(recipe); !valid) return valid;
+  if (document.opening()) return fail(ErrorCode::usage, "a survey is being opened; the proposal is of the one before");
+  if (app_.live->on()) app_.live->follow_next();
   document.use_recipe(std::move(recipe));
   document.tell("the survey is opened under the proposed setup; File > Recipe before takes it back");
   return {};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/slices/school_layers.h"
 
+#include <algorithm>
+#include <set>
 #include <utility>
 
 #include "session/looks/selection.h"
@@ -52,6 +54,11 @@ std::vector<SchoolLayer> school_layers(const Workspace& workspace, std::int64_t 
                                  school->masks.decided.status),
                       school_title(*school), !rejected});
   }
+  // The one that acts are about has the first choice of a place for its name.
+  const auto acted_on = [&](const SchoolLayer& layer) {
+    return workspace.school() == SchoolName{observation, layer.number};
+  };
+  if (selected.size() > 1) std::stable_partition(layers.begin(), layers.end(), acted_on);
   if (const auto found = document.propagating().find(ping_index);
       found != document.propagating().end() && display.masks) {
     layers.push_back(

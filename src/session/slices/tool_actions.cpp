@@ -106,6 +106,7 @@ void add_tool_actions(AppModel& app) {
                    [&app, &workspace] {
                      const SlicePlaces at = workspace.slices();
                      app.seed_tool->press({at.fan, at.beam, at.sample}, false, false, false);
+                     app.seed_tool->leave();  // no pointer is there
                    },
                    [&workspace] { return workspace.document.staged() != nullptr; }});
   add_tool(app, "tool.brush", "Brush", "B", "Paints voxels into the selected school, or into a new one",

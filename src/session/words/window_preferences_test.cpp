@@ -148,6 +148,15 @@ TEST_F(WindowPreferences, TextsNameTheKeysThatAreInForce) {
   EXPECT_EQ(app_->workspace.document.notices().back(), "press F10");
 }
 
+// A version that gives a key to something new takes it from nobody.
+TEST_F(WindowPreferences, AKeyThatAUserChoseIsNotAnActionsThatCameWithIt) {
+  actions().take_keys({{"review.next", {"F8"}}});
+  EXPECT_EQ(actions().with_key("F8")->id, "review.next");
+  EXPECT_TRUE(actions().find("display.filtered")->keys.empty());
+  actions().take_keys({});
+  EXPECT_EQ(actions().with_key("F8")->id, "display.filtered");
+}
+
 // 1 ft = 0.3048 m; what was asked for is read everywhere at once.
 TEST_F(WindowPreferences, UnitsReachReadOutsAndListsAndCancelBringsBackMetres) {
   document().open({TestSurvey::easy().folder()});
