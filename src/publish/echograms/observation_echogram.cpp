@@ -70,7 +70,8 @@ std::optional<std::int64_t> fullest_ping(const EchogramPyramid& echogram, std::s
   const double level = counts_from_db(level_db);
   std::int64_t most = 0;
   std::optional<std::int64_t> fullest;
-  for (std::size_t ping = 0; ping < echogram.columns(0); ++ping) {
+  const std::size_t count = std::min(echogram.columns(0), pings.size());  // what was kept is a file
+  for (std::size_t ping = 0; ping < count; ++ping) {
     if (pings[ping].bad) continue;
     std::int64_t reach = 0;
     for (int bin = 0; bin < echogram.bins(0); ++bin) {
